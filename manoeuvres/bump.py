@@ -1,0 +1,46 @@
+"""Cosine bump driven over at constant speed (Bodenwelle)."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
+from susp_mj.plant import Input
+from susp_mj.roads import cosine_bump
+from susp_mj.units import Length, PositiveLength, PositiveSpeed, PositiveTime, Time
+
+
+class Bump(Manoeuvre):
+    """Cosine bump ``z = h/2 (1 - cos(2 pi s/L))`` at constant speed; the rear axle meets it wheelbase/speed later.
+
+    Attributes:
+        height: h [m]; negative is a dip.
+        length: L [m].
+        speed: [m/s].
+        start: when the front axle reaches the bump [s].
+
+    Source: thesis, chapter 3 and appendix 1.
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("road_height",)
+
+    kind: Literal["bump"] = "bump"
+    duration: PositiveTime = 3.0
+    height: Length = 0.08
+    length: PositiveLength = 2.0
+    speed: PositiveSpeed = 50 / 3.6
+    start: Time = 0.2
+
+    def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
+        if place.quantity != "road_height":
+            return None
+        height, slope = cosine_bump(self.speed * (time - self.start) + place.x, self.height, self.length)
+        return height, slope * self.speed
+
+
+if __name__ == "__main__":
+    from design.cli import manoeuvre_script
+
+    manoeuvre_script("bump")

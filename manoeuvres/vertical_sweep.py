@@ -1,0 +1,73 @@
+"""Vertical sine sweep of the road under the wheels (Gleitsinus)."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import model_validator
+
+from susp_mj.description import wrong
+from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
+from susp_mj.plant import Input
+from susp_mj.units import Frequency, PositiveLength, PositiveTime
+
+
+class VerticalSweep(Manoeuvre):
+    """Sine of the road height whose frequency rises exponentially, ``f(t) = f0 (f1/f0)^(t/T)``.
+
+    Phase ``phi = 2 pi f0 T / ln(f1/f0) ((f1/f0)^(t/T) - 1)``; the amplitude is constant, or falls as ``f0/f`` where
+    `constant_speed` keeps the road's speed amplitude instead. It fades in over the first period. Phase and frequency
+    are kept with the run, so that amplifications can be read off by demodulation.
+
+    Attributes:
+        amplitude: of the road height at the start frequency [m].
+        start_frequency, end_frequency: f0 and f1 [Hz].
+        constant_speed: whether the amplitude falls with frequency.
+
+    Source: thesis, table 7.1; the exponential sweep after A. Farina, AES Convention 108 (2000), 5093.
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("road_height",)
+
+    kind: Literal["vertical_sweep"] = "vertical_sweep"
+    duration: PositiveTime = 60.0
+    amplitude: PositiveLength = 0.01
+    start_frequency: Frequency = 0.3
+    end_frequency: Frequency = 20.0
+    constant_speed: bool = True
+
+    @model_validator(mode="after")
+    def _rising(self) -> VerticalSweep:
+        if self.end_frequency <= self.start_frequency:
+            raise wrong(f"{self.end_frequency} Hz is not allowed; it must lie above start_frequency {self.start_frequency} Hz", "end_frequency")
+        return self
+
+    def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
+        if place.quantity != "road_height":
+            return None
+        phase, frequency = self._phase(time), self._frequency(time)
+        growth = np.log(self.end_frequency / self.start_frequency) / self.duration
+        amplitude = self.amplitude * (self.start_frequency / frequency if self.constant_speed else np.ones_like(time))
+        amplitude_rate = -growth * amplitude if self.constant_speed else np.zeros_like(time)
+        progress = np.clip(time * self.start_frequency, 0.0, 1.0)
+        fade, fade_rate = (1 - np.cos(np.pi * progress)) / 2, np.pi / 2 * self.start_frequency * np.sin(np.pi * progress)
+        height = fade * amplitude * np.sin(phase)
+        rate = fade * (amplitude * 2 * np.pi * frequency * np.cos(phase) + amplitude_rate * np.sin(phase))
+        return height, rate + fade_rate * amplitude * np.sin(phase)
+
+    def record(self, time: np.ndarray) -> dict[str, np.ndarray]:
+        return {"excitation_phase": self._phase(time), "excitation_frequency": self._frequency(time)}
+
+    def _frequency(self, time: np.ndarray) -> np.ndarray:
+        return self.start_frequency * (self.end_frequency / self.start_frequency) ** (time / self.duration)
+
+    def _phase(self, time: np.ndarray) -> np.ndarray:
+        ratio = self.end_frequency / self.start_frequency
+        return 2 * np.pi * self.start_frequency * self.duration / np.log(ratio) * (ratio ** (time / self.duration) - 1)
+
+
+if __name__ == "__main__":
+    from design.cli import manoeuvre_script
+
+    manoeuvre_script("vertical_sweep")

@@ -1,0 +1,177 @@
+"""The callbacks: every element's force and state at every integration stage, and the inputs before them.
+
+An actuator is ours if its first user parameter is `ACTUATOR_MARK`; its second is the number of its law, the law's own parameters
+follow. Deflection and speed are the transmission's length and velocity plus the input's share (`ctrl` and `userdata`).
+"""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import mujoco
+from llvmlite import ir
+from numba import carray, cfunc, from_dtype, types
+from numba.extending import intrinsic
+
+from ..elements import LAWS
+from ..elements.law import ACTUATOR_MARK, LAW_TABLE_SIZE, USERDATA_HEADER
+from ..errors import CallbackError
+from .laws import compile_laws
+from .layout import LAYOUT
+from .memory import bits, doubles, ints
+
+MODEL = types.CPointer(from_dtype(LAYOUT.record("model")))
+DATA = types.CPointer(from_dtype(LAYOUT.record("data")))
+
+
+def _table_call(symbol: str) -> Any:
+    """Intrinsic ``call(number, x, v, y, parameters)`` through a table of addresses; 0 where the table is empty."""
+
+    @intrinsic
+    def call(context, number, x, v, y, parameters):  # noqa: ANN001, ANN202
+        signature = types.float64(types.intp, types.float64, types.float64, types.float64, types.CPointer(types.float64))
+
+        def generate(target, builder, signature, arguments):  # noqa: ANN001, ANN202
+            word, double = ir.IntType(64), ir.DoubleType()
+            table = builder.module.globals.get(symbol)
+            if table is None:
+                table = ir.GlobalVariable(builder.module, ir.ArrayType(word, LAW_TABLE_SIZE), symbol)
+                table.linkage = "external"
+            address = builder.load(builder.gep(table, [ir.Constant(word, 0), arguments[0]]))
+            result = builder.alloca(double)
+            builder.store(ir.Constant(double, 0.0), result)
+            with builder.if_then(builder.icmp_unsigned("!=", address, ir.Constant(word, 0))):
+                kind = ir.FunctionType(double, [double, double, double, double.as_pointer()])
+                law = builder.inttoptr(address, kind.as_pointer())
+                builder.store(builder.call(law, arguments[1:]), result)
+            return builder.load(result)
+
+        return signature, generate
+
+    return call
+
+
+_force_of = _table_call("susp_mj_force_table")
+_state_rate_of = _table_call("susp_mj_state_table")
+
+
+@cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
+def _force(model_pointer, data_pointer, actuator):  # noqa: ANN001, ANN202
+    model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
+    stride = model.nuser_actuator
+    if stride < 2:
+        return 0.0
+    user = model.actuator_user + types.uint64(8 * stride * actuator)
+    own = doubles(user)
+    if own[0] != ACTUATOR_MARK or not 0.0 < own[1] < LAW_TABLE_SIZE:
+        return 0.0
+    state_address = ints(model.actuator_actadr)[actuator]
+    state = doubles(data.act)[state_address] if state_address >= 0 else 0.0
+    x = doubles(data.actuator_length)[actuator] + doubles(data.ctrl)[actuator]
+    v = doubles(data.actuator_velocity)[actuator] + doubles(data.userdata)[USERDATA_HEADER + actuator]
+    return -_force_of(int(own[1]), x, v, state, doubles(user + types.uint64(16)))
+
+
+@cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
+def _state_rate(model_pointer, data_pointer, actuator):  # noqa: ANN001, ANN202
+    model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
+    stride = model.nuser_actuator
+    state_address = ints(model.actuator_actadr)[actuator]
+    if stride < 2 or state_address < 0:
+        return 0.0
+    user = model.actuator_user + types.uint64(8 * stride * actuator)
+    own = doubles(user)
+    if own[0] != ACTUATOR_MARK or not 0.0 < own[1] < LAW_TABLE_SIZE:
+        return 0.0
+    state = doubles(data.act)[state_address]
+    x = doubles(data.actuator_length)[actuator] + doubles(data.ctrl)[actuator]
+    v = doubles(data.actuator_velocity)[actuator] + doubles(data.userdata)[USERDATA_HEADER + actuator]
+    return _state_rate_of(int(own[1]), x, v, state, doubles(user + types.uint64(16)))
+
+
+@cfunc(types.void(MODEL, DATA), cache=True)
+def _inputs(model_pointer, data_pointer):  # noqa: ANN001, ANN202
+    """Write the input's value to `ctrl` and its rate to `userdata`, at the time of this stage.
+
+    The block (see `loop.input_block`) holds samples at half steps, which is where a Runge-Kutta stage asks.
+    """
+    model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
+    if model.nuserdata < USERDATA_HEADER:
+        return
+    userdata = doubles(data.userdata)
+    if userdata[0] != ACTUATOR_MARK:
+        return
+    block_address = bits(userdata[1])
+    block = doubles(block_address)
+    samples, spacing, inputs, entries = int(block[0]), block[1], int(block[2]), int(block[3])
+    place = min(max(data.time / spacing, 0.0), samples - 1.0)
+    index = min(int(place + 0.5), samples - 1)
+    offset = place - index
+    neighbour = index
+    if abs(offset) < 1e-6:
+        offset = 0.0
+    else:
+        neighbour = min(max(index + (1 if offset > 0.0 else -1), 0), samples - 1)
+        offset = abs(offset)
+    table = 4 + 3 * entries
+    here, there = table + 2 * inputs * index, table + 2 * inputs * neighbour
+    ctrl = doubles(data.ctrl)
+    for entry in range(entries):
+        actuator = int(block[5 + 3 * entry])
+        ctrl[actuator] = 0.0
+        userdata[USERDATA_HEADER + actuator] = 0.0
+    for entry in range(entries):
+        column, actuator, factor = 2 * int(block[4 + 3 * entry]), int(block[5 + 3 * entry]), block[6 + 3 * entry]
+        value = block[here + column] + offset * (block[there + column] - block[here + column])
+        rate = block[here + column + 1] + offset * (block[there + column + 1] - block[here + column + 1])
+        ctrl[actuator] += factor * value
+        userdata[USERDATA_HEADER + actuator] += factor * rate
+
+
+_SLOTS = {
+    "act_bias": (mujoco.get_mjcb_act_bias, mujoco.set_mjcb_act_bias, _force),
+    "act_dyn": (mujoco.get_mjcb_act_dyn, mujoco.set_mjcb_act_dyn, _state_rate),
+    "control": (mujoco.get_mjcb_control, mujoco.set_mjcb_control, _inputs),
+}
+
+
+def install(laws: Any = None) -> None:
+    """Put the compiled callbacks into MuJoCo; calling it again changes nothing.
+
+    MuJoCo has one set of callbacks per process. Models that are not ours pass through them unchanged.
+
+    Args:
+        laws: numbers of the laws that will be used; None compiles every registered one.
+
+    Raises:
+        CallbackError: another program has installed a callback of its own.
+    """
+    compile_laws(LAWS if laws is None else laws)
+    for name, (get, put, compiled) in _SLOTS.items():
+        present = get()
+        if present is not None and not _is_ours(present, compiled):
+            raise CallbackError(f"mjcb_{name} is taken by another program; call mujoco.set_mjcb_{name}(None) first")
+        if present is None:
+            put(compiled.ctypes)
+
+
+def uninstall() -> None:
+    """Take our callbacks out of MuJoCo; foreign ones stay."""
+    for get, put, compiled in _SLOTS.values():
+        if _is_ours(get(), compiled):
+            put(None)
+
+
+def installed() -> bool:
+    """Whether all of our callbacks are in place."""
+    return all(_is_ours(get(), compiled) for get, _, compiled in _SLOTS.values())
+
+
+def _is_ours(present: Any, compiled: Any) -> bool:
+    if present is None:
+        return False
+    try:
+        return ctypes.cast(present, ctypes.c_void_p).value == compiled.address
+    except (ctypes.ArgumentError, TypeError):
+        return False

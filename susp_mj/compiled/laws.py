@@ -1,0 +1,58 @@
+"""Compile laws to machine code, once, and keep their addresses in a table that the callbacks look into.
+
+The table is reached through a linker symbol, so that code from the disk cache finds the table of this process.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from llvmlite import binding
+from numba import cfunc, types
+from numba.extending import register_jitable
+
+from ..elements import LAWS
+from ..elements.law import LAW_TABLE_SIZE, Law, ScalarLaw, helpers
+from ..errors import CallbackError
+
+LAW_SIGNATURE = types.float64(types.float64, types.float64, types.float64, types.CPointer(types.float64))
+
+FORCE_TABLE = np.zeros(LAW_TABLE_SIZE, np.uint64)
+STATE_TABLE = np.zeros(LAW_TABLE_SIZE, np.uint64)
+binding.add_symbol("susp_mj_force_table", FORCE_TABLE.ctypes.data)
+binding.add_symbol("susp_mj_state_table", STATE_TABLE.ctypes.data)
+
+
+def compile_laws(numbers: Iterable[int]) -> None:
+    """Compile the laws with these numbers, unless they are in the tables already.
+
+    Raises:
+        CallbackError: no law has that number, or numba cannot compile one.
+    """
+    for number in numbers:
+        if FORCE_TABLE[number] == 0:
+            if number not in LAWS:
+                raise CallbackError(f"the model uses force law {number}, which is not known; register its element first")
+            law = LAWS[number]
+            if law.state_rate is not None:
+                STATE_TABLE[number] = _compiled(law, law.state_rate).address
+            FORCE_TABLE[number] = _compiled(law, law.force).address
+
+
+@functools.cache
+def _compiled(law: Law, function: ScalarLaw) -> Any:
+    """The compiled function; the cache keeps it alive as long as its address is in use."""
+    for helper in helpers(function).values():
+        register_jitable(helper)
+    try:
+        compiled = cfunc(LAW_SIGNATURE, cache=Path(inspect.getsourcefile(function) or "").is_file())(function)
+    except Exception as error:
+        reason = str(error).strip().splitlines()[0]
+        raise CallbackError(f"law '{law.name}' does not compile ({reason}); use math and plain arithmetic only") from error
+    return compiled
+

@@ -1,0 +1,217 @@
+"""Suspension dampers, effective at the wheel: zoned or measured characteristic, rubber mount in series, rod friction.
+
+Speed v [m/s] is positive in compression (thesis sections 4.4.2 and 5.3.5.2).
+"""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from typing import Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+from pydantic import Field, field_validator, model_validator
+
+from ..description import Description, wrong
+from ..units import Damping, NonNegativeForce, Stiffness, quantity
+from .element import Element, FloatArray, chosen_from
+from .law import Law, Parameters
+
+def hydraulic_force(speed: float, p: Parameters) -> float:
+    """Force of the piecewise straight characteristic in p = mount rate, friction, n_c, n_r, then (v, F, slope) each."""
+    first, count = (4, int(p[2])) if speed >= 0.0 else (4 + 3 * int(p[2]), int(p[3]))
+    magnitude = abs(speed)
+    i = first + 3 * (count - 1)
+    while i > first and magnitude < p[i]:
+        i -= 3
+    force = p[i + 1] + p[i + 2] * (magnitude - p[i])
+    return force if speed >= 0.0 else -force
+
+
+def hydraulic_speed(force: float, p: Parameters) -> float:
+    """Inverse of `hydraulic_force`."""
+    first, count = (4, int(p[2])) if force >= 0.0 else (4 + 3 * int(p[2]), int(p[3]))
+    magnitude = abs(force)
+    i = first + 3 * (count - 1)
+    while i > first and magnitude < p[i + 1]:
+        i -= 3
+    speed = p[i] + (magnitude - p[i + 1]) / p[i + 2]
+    return speed if force >= 0.0 else -speed
+
+
+def direct_force(deflection: float, speed: float, state: float, p: Parameters) -> float:
+    """Damper without a mount: hydraulic force and regularised Coulomb friction."""
+    return hydraulic_force(speed, p) + p[1] * 2.0 / math.pi * math.atan(201.7 * speed)
+
+
+def mounted_force(deflection: float, speed: float, state: float, p: Parameters) -> float:
+    """Force of the mount, ``k1 (x - y)``; the state y is the deflection of the damper rod."""
+    return p[0] * (deflection - state)
+
+
+def mounted_rod_speed(deflection: float, speed: float, state: float, p: Parameters) -> float:
+    """dy/dt: 0 while the mount force stays within the friction, else the inverse characteristic of the excess."""
+    force = p[0] * (deflection - state)
+    excess = abs(force) - p[1]
+    if excess <= 0.0:
+        return 0.0
+    return hydraulic_speed(excess if force > 0.0 else -excess, p)
+
+
+DIRECT_DAMPER = Law("direct_damper", direct_force)
+MOUNTED_DAMPER = Law("mounted_damper", mounted_force, mounted_rod_speed)
+
+
+class Mount(Description):
+    """Rubber mount in series with the damper.
+
+    Attributes:
+        rate: stiffness k1 [N/m].
+    """
+
+    rate: Stiffness
+
+
+class Damper(Element):
+    """A hydraulic damper with rod friction, with or without a rubber mount in series.
+
+    Without a mount ``F = F_d(v) + F_f (2/pi) arctan(201.7 v)``. With a mount of rate k1 the rod deflection y is a
+    state: ``F = k1 (x - y)``; ``dy/dt = 0`` while ``|F| <= F_f``, else ``F_d^-1(|F| - F_f) sign(F)``: the inverse
+    characteristic takes the stiffness out of Coulomb friction (thesis 5.14). F_d must therefore increase strictly.
+
+    Attributes:
+        friction: Coulomb friction F_f [N] of rod and piston.
+        mount: the rubber mount, or None.
+    """
+
+    law: ClassVar[Law] = DIRECT_DAMPER
+
+    kind: str
+    friction: NonNegativeForce = 0.0
+    mount: Mount | None = None
+
+    @abstractmethod
+    def branches(self) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
+        """Speeds [m/s] and forces [N] from the origin outwards, both positive: compression, then rebound."""
+
+    @property
+    def active_law(self) -> Law:
+        return self.law if self.mount is None else MOUNTED_DAMPER
+
+    def parameters(self) -> tuple[float, ...]:
+        numbers: list[float] = []
+        branches = self.branches()
+        for speed, force in branches:
+            slope = np.diff(force) / np.diff(speed)
+            numbers += np.column_stack([speed[:-1], force[:-1], slope]).ravel().tolist()
+        mount = self.mount.rate if self.mount else 0.0
+        return (mount, self.friction, *(float(len(speed) - 1) for speed, _ in branches), *numbers)
+
+    def force_at(self, speed: ArrayLike) -> FloatArray:
+        """Hydraulic force F_d [N] at speed [m/s], without friction and mount."""
+        p = self.parameters()
+        return np.vectorize(lambda v: hydraulic_force(v, p), otypes=[float])(speed)
+
+    def speed_at(self, force: ArrayLike) -> FloatArray:
+        """Inverse characteristic: speed [m/s] at hydraulic force [N]."""
+        p = self.parameters()
+        return np.vectorize(lambda f: hydraulic_speed(f, p), otypes=[float])(force)
+
+    def least_slope(self) -> float:
+        """Smallest dF/dv [N s/m] of the characteristic."""
+        return min(float((np.diff(force) / np.diff(speed)).min()) for speed, force in self.branches())
+
+    def time_constant(self) -> float | None:
+        """Fastest time constant [s] of mount and damper in series, ``min(dF_d/dv) / k1``; None without a mount."""
+        return self.least_slope() / self.mount.rate if self.mount else None
+
+
+class ZonedDamper(Damper):
+    """Average rate per velocity zone and compression:rebound ratio (thesis section 4.4.2).
+
+    In each zone ``D_c = 2 D c/(c+r)`` and ``D_r = 2 D r/(c+r)``; the characteristic is the continuous, piecewise
+    straight line through the zone limits. "1:2" and 3000 N s/m give 2000 in compression and 4000 in rebound.
+
+    Attributes:
+        rates: average rate D [N s/m] of one to three zones, from rest outwards.
+        limits: speeds [m/s] between the zones, increasing, one fewer than the rates.
+        ratio: compression to rebound, written ``"1:2"``.
+    """
+
+    kind: Literal["zoned"] = "zoned"
+    rates: tuple[Damping, ...] = Field(min_length=1, max_length=3)
+    limits: tuple[quantity("m/s", gt=0), ...] = ()
+    ratio: tuple[float, float] = (1.0, 1.0)
+
+    @field_validator("ratio", mode="before")
+    @classmethod
+    def _read_ratio(cls, value: Any) -> Any:
+        if isinstance(value, str):
+            parts = value.split(":")
+            try:
+                value = (float(parts[0]), float(parts[1])) if len(parts) == 2 else None
+            except ValueError:
+                value = None
+        if not isinstance(value, (tuple, list)) or len(value) != 2 or not all(0 < part < np.inf for part in value):
+            raise wrong("write the ratio of compression to rebound as two positive numbers, like '1:2'")
+        return tuple(value)
+
+    @model_validator(mode="after")
+    def _zones(self) -> ZonedDamper:
+        if len(self.limits) != len(self.rates) - 1:
+            raise wrong(f"{len(self.limits)} limits do not separate {len(self.rates)} rates; give one fewer", "limits")
+        if any(b <= a for a, b in zip(self.limits, self.limits[1:], strict=False)):
+            raise wrong("zone limits must increase", "limits")
+        return self
+
+    def branches(self) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
+        limits = self.limits or (1.0,)
+        speed = np.array([0.0, *limits, 2 * limits[-1]])[: len(self.rates) + 1]
+        average = np.concatenate([[0.0], np.cumsum(np.array(self.rates) * np.diff(speed))])
+        compression, rebound = self.ratio
+        share = 2.0 / (compression + rebound)
+        return (speed, average * share * compression), (speed, average * share * rebound)
+
+
+class TableDamper(Damper):
+    """A measured characteristic: straight lines through the points and the origin, the end slopes continued.
+
+    Attributes:
+        speed: speeds [m/s], strictly increasing, from below to above 0.
+        force: forces [N] at them, strictly increasing, with the sign of the speed.
+    """
+
+    kind: Literal["table"] = "table"
+    speed: tuple[quantity("m/s"), ...] = Field(min_length=2, max_length=500)
+    force: tuple[quantity("N"), ...] = Field(min_length=2, max_length=500)
+
+    @model_validator(mode="after")
+    def _increasing(self) -> TableDamper:
+        if len(self.force) != len(self.speed):
+            raise wrong(f"{len(self.force)} values are not allowed; speed has {len(self.speed)}", "force")
+        for key in ("speed", "force"):
+            values = getattr(self, key)
+            for i in range(1, len(values)):
+                if values[i] <= values[i - 1]:
+                    raise wrong(f"{values[i]:g} follows {values[i - 1]:g}; a damper must increase strictly", f"{key}.{i}")
+        if not self.speed[0] < 0 < self.speed[-1]:
+            raise wrong("must reach from rebound (below 0) to compression (above 0)", "speed")
+        for i, (speed, force) in enumerate(zip(self.speed, self.force, strict=True)):
+            if np.sign(speed) != np.sign(force):
+                raise wrong(f"{force:g} N at {speed:g} m/s would feed energy in; force and speed need the same sign", f"force.{i}")
+        return self
+
+    def branches(self) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
+        speed, force = np.array(self.speed), np.array(self.force)
+
+        def outwards(sign: float) -> tuple[FloatArray, FloatArray]:
+            side = sign * speed > 0
+            order = np.argsort(np.abs(speed[side]))
+            return np.concatenate([[0.0], np.abs(speed[side])[order]]), np.concatenate([[0.0], np.abs(force[side])[order]])
+
+        return outwards(1.0), outwards(-1.0)
+
+
+DAMPERS: dict[str, type[Damper]] = {"zoned": ZonedDamper, "table": TableDamper}
+AnyDamper = Annotated[Damper, chosen_from(DAMPERS)]

@@ -1,0 +1,45 @@
+"""Every error that susp_mj raises on purpose: one line that names the culprit, the place and the choices."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class SuspMjError(Exception):
+    """Base class; the command line prints its text as one line and never a traceback."""
+
+
+class InputError(SuspMjError):
+    """Something the user wrote is wrong.
+
+    Args:
+        message: what is wrong and what is allowed.
+        key: dotted path of the value inside its file or call, e.g. ``rear.spring.kind``.
+        source: file (or object) that holds it, e.g. ``chapter3.toml``.
+    """
+
+    def __init__(self, message: str, *, key: str = "", source: str = "") -> None:
+        self.message, self.key, self.source = message, key, source
+        super().__init__(": ".join(part for part in (source, key, message) if part))
+
+    def within(self, *, key: str = "", source: str = "") -> InputError:
+        """The same error seen from one level further out: `key` is put in front, `source` filled in if unknown."""
+        path = ".".join(part for part in (key, self.key) if part)
+        return InputError(self.message, key=path, source=self.source or source)
+
+
+class SimulationError(SuspMjError):
+    """A run could not be completed: it diverged, or no equilibrium exists."""
+
+
+class CallbackError(SuspMjError):
+    """The compiled callbacks do not fit this MuJoCo, or another program's callbacks are in their place."""
+
+
+def choices(options: Iterable[object], wrong: object = None) -> str:
+    """List the options for an error text, and the nearest one first: ``did you mean 'damper'? choose damper, spring``."""
+    names = [str(option) for option in options]
+    near = difflib.get_close_matches(str(wrong), names, n=1) if wrong is not None else []
+    hint = f"did you mean '{near[0]}'? " if near else ""
+    return f"{hint}choose {', '.join(names)}"

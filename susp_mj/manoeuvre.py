@@ -1,0 +1,61 @@
+"""Manoeuvre: what is done to a plant, as values and rates of its inputs over time."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from .description import Description
+from .errors import InputError
+from .units import PositiveTime
+
+if TYPE_CHECKING:
+    from .plant import Input
+
+Values = np.ndarray
+ValueAndRate = tuple[np.ndarray, np.ndarray]
+
+
+class Manoeuvre(Description, ABC):
+    """Base of every manoeuvre; a subclass adds its parameters, `needs` and `drive`.
+
+    Attributes:
+        kind: name in a case file.
+        duration: length of the run [s].
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ()
+    """Quantities of inputs that the plant must offer."""
+
+    kind: str
+    duration: PositiveTime
+
+    @abstractmethod
+    def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
+        """Value and rate of one of the plant's inputs.
+
+        Args:
+            place: the input: its quantity, station and position on the car.
+            time: (n,) [s].
+
+        Returns:
+            (n,) values and (n,) rates per second in the input's unit, or None for an input that stays zero.
+        """
+
+    def record(self, time: np.ndarray) -> dict[str, np.ndarray]:
+        """Signals of the manoeuvre itself to keep with the run, by quantity; by default none."""
+        return {}
+
+    def check(self, places: Sequence[Input], model: str) -> None:
+        """Refuse a plant that lacks an input.
+
+        Raises:
+            InputError: naming the input.
+        """
+        offered = {place.quantity for place in places}
+        for quantity in self.needs:
+            if quantity not in offered:
+                raise InputError(f"model {model} has no input '{quantity}', which manoeuvre {self.kind} drives", key="model")

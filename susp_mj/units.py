@@ -1,0 +1,147 @@
+"""Quantities as users write them: a number is SI, a text carries its unit (``"27 N/mm"``, ``"1.2 Hz"``, ``"50 km/h"``).
+
+Each type below is an annotated `float` for pydantic models; its metadata holds the SI unit, which also labels reports.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field
+from pydantic_core import PydanticCustomError
+
+# unit -> (factor to SI, exponents of metre, kilogram, second, radian)
+_UNITS: dict[str, tuple[float, tuple[int, int, int, int]]] = {
+    "": (1.0, (0, 0, 0, 0)),
+    "1": (1.0, (0, 0, 0, 0)),
+    "%": (0.01, (0, 0, 0, 0)),
+    "m": (1.0, (1, 0, 0, 0)),
+    "cm": (1e-2, (1, 0, 0, 0)),
+    "mm": (1e-3, (1, 0, 0, 0)),
+    "km": (1e3, (1, 0, 0, 0)),
+    "l": (1e-3, (3, 0, 0, 0)),
+    "kg": (1.0, (0, 1, 0, 0)),
+    "g": (1e-3, (0, 1, 0, 0)),
+    "t": (1e3, (0, 1, 0, 0)),
+    "s": (1.0, (0, 0, 1, 0)),
+    "ms": (1e-3, (0, 0, 1, 0)),
+    "min": (60.0, (0, 0, 1, 0)),
+    "h": (3600.0, (0, 0, 1, 0)),
+    "Hz": (1.0, (0, 0, -1, 0)),
+    "rad": (1.0, (0, 0, 0, 1)),
+    "deg": (math.pi / 180, (0, 0, 0, 1)),
+    "°": (math.pi / 180, (0, 0, 0, 1)),
+    "N": (1.0, (1, 1, -2, 0)),
+    "kN": (1e3, (1, 1, -2, 0)),
+    "MN": (1e6, (1, 1, -2, 0)),
+    "Nm": (1.0, (2, 1, -2, 0)),
+    "kNm": (1e3, (2, 1, -2, 0)),
+    "Ns": (1.0, (1, 1, -1, 0)),
+    "kNs": (1e3, (1, 1, -1, 0)),
+    "kgm": (1.0, (1, 1, 0, 0)),
+    "Pa": (1.0, (-1, 1, -2, 0)),
+    "kPa": (1e3, (-1, 1, -2, 0)),
+    "bar": (1e5, (-1, 1, -2, 0)),
+    "W": (1.0, (2, 1, -3, 0)),
+    "kW": (1e3, (2, 1, -3, 0)),
+}
+_SUPERSCRIPT = str.maketrans({"²": "^2", "³": "^3", "·": " ", "*": " ", "−": "-"})
+_NUMBER = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
+_FACTOR = re.compile(r"^([A-Za-z°%1]*?)(?:\^?(-?\d))?$")
+
+
+def unit_factor(text: str) -> tuple[float, tuple[int, ...]]:
+    """Factor to SI and dimension exponents (m, kg, s, rad) of a unit such as ``N s/m`` or ``kg m²``.
+
+    Raises:
+        ValueError: the unit is unknown.
+    """
+    factor, exponents = 1.0, [0, 0, 0, 0]
+    for side, part in enumerate(text.translate(_SUPERSCRIPT).split("/")):
+        sign = 1 if side == 0 else -1
+        for word in part.replace("(", " ").replace(")", " ").split():
+            match = _FACTOR.match(word)
+            if match is None or match[1] not in _UNITS:
+                raise ValueError(f"unknown unit '{word}'")
+            power = sign * int(match[2] or 1)
+            scale, dimension = _UNITS[match[1]]
+            factor *= scale**power
+            exponents = [e + power * d for e, d in zip(exponents, dimension, strict=True)]
+    return factor, tuple(exponents)
+
+
+def to_si(value: Any, unit: str) -> float:
+    """Read `value` as a quantity of the dimension of `unit` [any SI unit text]; a bare number is taken as SI.
+
+    >>> to_si("27 N/mm", "N/m")
+    27000.0
+    >>> to_si(50, "m/s")
+    50.0
+
+    Raises:
+        ValueError: not a number, no unit on a text, an unknown unit, another dimension, NaN or infinite.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise ValueError(f"{value!r} is not a quantity; write a number in {unit or 'plain form'} or a text like '1 {unit}'")
+    if isinstance(value, str):
+        match = _NUMBER.match(value)
+        if match is None:
+            raise ValueError(f"'{value}' is not a number with a unit; write it like '1 {unit}'")
+        if not match[2] and unit:
+            raise ValueError(f"'{value}' has no unit; write '{value} {unit}' or the bare number {value}")
+        try:
+            factor, dimension = unit_factor(match[2])
+        except ValueError as error:
+            raise ValueError(f"'{value}': {error}; expected a unit like {unit or 'none'}") from None
+        if dimension != unit_factor(unit)[1]:
+            raise ValueError(f"'{value}' has the wrong unit; expected one like {unit or 'none'}")
+        number = float(match[1]) * factor
+    else:
+        number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{value!r} is not a finite number")
+    return number
+
+
+class Unit:
+    """Metadata of a quantity type: the SI unit its values are held in."""
+
+    def __init__(self, symbol: str) -> None:
+        self.symbol = symbol
+
+
+def quantity(unit: str, **bounds: float) -> Any:
+    """Pydantic type of a quantity held in SI `unit`; `bounds` are pydantic's ``gt, ge, lt, le``."""
+
+    def read(value: Any) -> float:
+        try:
+            return to_si(value, unit)
+        except ValueError as error:
+            raise PydanticCustomError("quantity", "{text}", {"text": str(error)}) from None
+
+    return Annotated[float, BeforeValidator(read), Field(**bounds, json_schema_extra={"unit": unit}), Unit(unit)]
+
+
+def unit_of(metadata: Any) -> str:
+    """SI unit symbol in a pydantic field's metadata, or an empty text."""
+    return next((item.symbol for item in metadata if isinstance(item, Unit)), "")
+
+
+Length = quantity("m")
+PositiveLength = quantity("m", gt=0)
+Mass = quantity("kg", gt=0)
+Inertia = quantity("kg m²", gt=0)
+Force = quantity("N")
+NonNegativeForce = quantity("N", ge=0)
+PositiveForce = quantity("N", gt=0)
+Stiffness = quantity("N/m", gt=0)
+NonNegativeStiffness = quantity("N/m", ge=0)
+Damping = quantity("N s/m", gt=0)
+Frequency = quantity("Hz", gt=0)
+Speed = quantity("m/s")
+PositiveSpeed = quantity("m/s", gt=0)
+Time = quantity("s", ge=0)
+PositiveTime = quantity("s", gt=0)
+Dimensionless = quantity("")

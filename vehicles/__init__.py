@@ -1,0 +1,7 @@
+"""What a car is: `load_vehicle` reads a TOML file into a validated `Vehicle`."""
+
+from __future__ import annotations
+
+from .vehicle import Axle, LoadCase, Vehicle, available_vehicles, load_vehicle
+
+__all__ = ["Axle", "LoadCase", "Vehicle", "available_vehicles", "load_vehicle"]

@@ -1,0 +1,280 @@
+"""Vehicle: axles with characteristics effective at the wheel, load cases, and where every value comes from."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from susp_mj.description import Description, validate, wrong
+from susp_mj.elements import GRAVITY, AnyDamper, AnySpring, AnyTyre, LinkageFriction, Spring, Tyre
+from susp_mj.errors import InputError, choices
+from susp_mj.units import Inertia, Length, Mass, PositiveLength
+
+AxleName = Literal["front", "rear"]
+FOLDER = Path(__file__).parent
+DESIGN_LOAD = "ko"
+"""Name of the load case of the design position (Konstruktionslage), which every vehicle has."""
+
+
+def _status(text: str) -> str:
+    if text.split(":")[0] not in ("measured", "cited", "estimated") or not text.partition(":")[2].strip():
+        raise PydanticCustomError("wrong", "{text}", {"text": f"'{text}' must read 'measured: …', 'cited: …' or 'estimated: …'"})
+    return text
+
+
+Provenance = Annotated[str, AfterValidator(_status)]
+
+
+class Axle(Description):
+    """One axle; every value is for one wheel and effective at the wheel.
+
+    Attributes:
+        track: lateral distance of the wheel centres [m].
+        unsprung_mass: mass [kg] that moves with one wheel.
+        spring, damper, tyre: see `susp_mj.elements`.
+        friction: linkage friction, or None.
+    """
+
+    track: PositiveLength | None = None
+    unsprung_mass: Mass | None = None
+    spring: AnySpring
+    damper: AnyDamper
+    friction: LinkageFriction | None = None
+    tyre: AnyTyre | None = None
+
+
+class LoadCase(Description):
+    """A state of loading: the whole sprung body, or only the sprung mass on one wheel of an axle.
+
+    Attributes:
+        sprung_mass: [kg].
+        cg: centre of gravity [m] from the reference point (front axle, wheel-centre height): x forward, y left, z up.
+        inertia: Jxx, Jyy, Jzz [kg m²] about the centre of gravity.
+        corner_mass: sprung mass [kg] on one wheel, by axle; for cars known only as a quarter.
+    """
+
+    sprung_mass: Mass | None = None
+    cg: tuple[Length, Length, Length] | None = None
+    inertia: tuple[Inertia, Inertia, Inertia] | None = None
+    corner_mass: dict[AxleName, Mass] | None = None
+
+    @model_validator(mode="after")
+    def _one_form(self) -> LoadCase:
+        body = (self.sprung_mass, self.cg, self.inertia)
+        if self.corner_mass is None and None in body:
+            raise wrong("give sprung_mass, cg and inertia together, or corner_mass")
+        if self.corner_mass is not None and any(part is not None for part in body):
+            raise wrong("give either corner_mass or sprung_mass, cg and inertia, not both")
+        return self
+
+
+class Vehicle(Description):
+    """A car, one set of characteristics chosen.
+
+    Attributes:
+        name: the file's name without ending; `source` is the file itself.
+        title: one line for reports.
+        characteristics: name of the chosen set, empty if the file has none.
+        wheelbase: [m], needed by models with two axles.
+        front, rear: the axles; a quarter car may have one only.
+        loads: load cases by name; ``ko`` is the design position.
+        sources: dotted path -> 'measured: …', 'cited: …' or 'estimated: …', for every value of the file.
+    """
+
+    name: str
+    source: str
+    title: str
+    characteristics: str = ""
+    wheelbase: PositiveLength | None = None
+    front: Axle | None = None
+    rear: Axle | None = None
+    loads: dict[str, LoadCase] = Field(min_length=1)
+    sources: dict[str, Provenance] = {}
+
+    @model_validator(mode="after")
+    def _complete(self) -> Vehicle:
+        if DESIGN_LOAD not in self.loads:
+            raise wrong(f"the load case '{DESIGN_LOAD}' (design position) is required", "loads")
+        if self.front is None and self.rear is None:
+            raise wrong("at least one axle is required", "front")
+        return self
+
+    def axle(self, name: str) -> Axle:
+        """The axle, its spring and tyre carrying their design loads.
+
+        Raises:
+            InputError: the car has no such axle, or an element does not fit its design load.
+        """
+        axle: Axle | None = getattr(self, name) if name in ("front", "rear") else None
+        if axle is None:
+            there = [each for each in ("front", "rear") if getattr(self, each) is not None]
+            raise InputError(f"no axle '{name}'; {choices(there)}", key="axle", source=self.source)
+        corner = self.corner_mass(name, DESIGN_LOAD)
+        spring = self._settled(Spring.at_preload, axle.spring, corner * GRAVITY, f"{name}.spring")
+        tyre = axle.tyre
+        if tyre is not None:
+            tyre = self._settled(Tyre.at_static_load, tyre, (corner + (axle.unsprung_mass or 0.0)) * GRAVITY, f"{name}.tyre")
+        return axle.model_copy(update={"spring": spring, "tyre": tyre})
+
+    def _settled(self, method: Any, element: Any, force: float, key: str) -> Any:
+        from pydantic import ValidationError
+
+        from susp_mj.description import input_error
+
+        try:
+            return getattr(element, method.__name__)(force)
+        except ValidationError as error:
+            raise input_error(error, source=self.source, key=key) from None
+
+    def load(self, name: str) -> LoadCase:
+        """A load case by name.
+
+        Raises:
+            InputError: no such load case.
+        """
+        if name not in self.loads:
+            raise InputError(f"no load case '{name}'; {choices(self.loads, name)}", key="load", source=self.source)
+        return self.loads[name]
+
+    def corner_mass(self, axle: str, load: str) -> float:
+        """Sprung mass [kg] carried by one wheel of an axle: ``m l_other / (l_front + l_rear) / 2``.
+
+        Raises:
+            InputError: the load case does not tell.
+        """
+        case = self.load(load)
+        if case.corner_mass is not None:
+            if axle not in case.corner_mass:
+                raise InputError(f"gives no mass for the {axle} axle", key=f"loads.{load}.corner_mass", source=self.source)
+            return case.corner_mass[axle]
+        if self.wheelbase is None:
+            raise InputError("is required to share the sprung mass between the axles", key="wheelbase", source=self.source)
+        assert case.sprung_mass is not None and case.cg is not None
+        behind_front = -case.cg[0]
+        if not 0 < behind_front < self.wheelbase:
+            raise InputError(
+                f"{case.cg[0]} m is not allowed; the centre of gravity lies between the axles, from 0 to -{self.wheelbase} m",
+                key=f"loads.{load}.cg.0",
+                source=self.source,
+            )
+        share = behind_front / self.wheelbase
+        return case.sprung_mass * (share if axle == "rear" else 1 - share) / 2
+
+
+def available_vehicles() -> list[str]:
+    """Names of the cars that come with susp_mj."""
+    return sorted(path.stem for path in FOLDER.glob("*.toml"))
+
+
+def load_vehicle(name: str | Path, characteristics: str | None = None, overrides: Mapping[str, Any] | None = None) -> Vehicle:
+    """Read a car.
+
+    Args:
+        name: a shipped car (``"chapter3"``) or the path of a TOML file.
+        characteristics: which of the file's sets of characteristics; None takes the file's ``default``.
+        overrides: dotted path -> value as a file would have it, applied last: ``{"rear.damper.rates": [1200]}``.
+
+    Raises:
+        InputError: file, key, value, and what is allowed.
+    """
+    path = _find(name)
+    data = read_toml(path)
+    sets = data.pop("characteristics", {})
+    default = data.pop("default", "")
+    if not isinstance(sets, dict) or not all(isinstance(each, dict) for each in sets.values()):
+        raise InputError("must hold one table for each set", key="characteristics", source=path.name)
+    chosen = default if characteristics is None else characteristics
+    if chosen:
+        if chosen not in sets:
+            raise InputError(f"no set '{chosen}'; {choices(sets or ['none'], chosen)}", key="characteristics", source=path.name)
+        _merge(data, {key: value for key, value in sets[chosen].items() if key != "title"})
+    elif sets:
+        raise InputError(f"choose a set of characteristics: {', '.join(sets)}", key="characteristics", source=path.name)
+    for key, value in (overrides or {}).items():
+        set_by_path(data, key, value, source=path.name)
+    for reserved in ("name", "source"):
+        if reserved in data:
+            raise InputError("unknown key; a car is named by its file", key=reserved, source=path.name)
+    return validate(Vehicle, {**data, "name": path.stem, "source": path.name, "characteristics": chosen}, source=path.name)
+
+
+def characteristic_sets(name: str | Path) -> dict[str, str]:
+    """Names and titles of the sets of characteristics in a vehicle file; empty if it has one car only."""
+    sets = read_toml(_find(name)).get("characteristics", {})
+    return {key: str(value.get("title", key)) for key, value in sets.items()}
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Parse a TOML file.
+
+    Raises:
+        InputError: no such file, not readable, or not TOML (with line and column).
+    """
+    try:
+        with path.open("rb") as file:
+            return tomllib.load(file)
+    except FileNotFoundError:
+        raise InputError("no such file", source=str(path)) from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"cannot be read: {error}", source=str(path)) from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"is not TOML: {error}", source=path.name) from None
+
+
+def set_by_path(data: dict[str, Any], path: str, value: Any, *, source: str) -> None:
+    """Put `value` at a dotted path into nested tables, making tables on the way; a number addresses a list's item.
+
+    Raises:
+        InputError: the path runs through something that is not a table.
+    """
+    *parents, last = path.split(".")
+    here: Any = data
+    for depth, part in enumerate(parents):
+        if isinstance(here, dict):
+            here = here.setdefault(part, {})
+        elif isinstance(here, list) and part.isdigit() and int(part) < len(here):
+            here = here[int(part)]
+        else:
+            raise InputError(f"'{'.'.join(parents[: depth + 1])}' is not a table", key=path, source=source)
+    if isinstance(here, dict):
+        here[last] = value
+    elif isinstance(here, list) and last.isdigit() and int(last) < len(here):
+        here[int(last)] = value
+    else:
+        raise InputError(f"'{'.'.join(parents)}' is not a table", key=path, source=source)
+
+
+def leaves(data: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
+    """Dotted paths of all values in nested tables."""
+    for key, value in data.items():
+        path = f"{prefix}.{key}" if prefix else key
+        if isinstance(value, Mapping):
+            yield from leaves(value, path)
+        else:
+            yield path
+
+
+def _find(name: str | Path) -> Path:
+    text = str(name)
+    if text.endswith(".toml"):
+        path = Path(text)
+        if not path.is_file():
+            raise InputError("no such file", source=text)
+        return path
+    if text not in available_vehicles():
+        raise InputError(f"no vehicle '{text}'; {choices(available_vehicles(), text)}, or give a .toml file", key="vehicle")
+    return FOLDER / f"{text}.toml"
+
+
+def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> None:
+    """Lay `over` onto `base`; a table that names a `kind` replaces what was there."""
+    for key, value in over.items():
+        if isinstance(value, dict) and isinstance(base.get(key), dict) and "kind" not in value:
+            _merge(base[key], value)
+        else:
+            base[key] = value
