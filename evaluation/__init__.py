@@ -1,0 +1,36 @@
+"""What a run means: numbers, criteria, plots, animation, report."""
+
+from __future__ import annotations
+
+from . import frequency, ride
+from .number import Criterion, Evaluate, Number
+
+RIDE: tuple[Evaluate, ...] = (
+    ride.body_acceleration_max,
+    ride.body_acceleration_min,
+    ride.body_acceleration_rms,
+    ride.body_displacement_max,
+    ride.overshoot,
+    ride.settling_time,
+    ride.wheel_load_min,
+    ride.wheel_load_max,
+    ride.wheel_load_rms,
+    ride.contact_loss_time,
+    ride.contact_loss_instant,
+    ride.travel_compression,
+    ride.travel_rebound,
+    ride.travel_left_compression,
+    ride.travel_left_rebound,
+    ride.stop_hits,
+)
+FREQUENCY: tuple[Evaluate, ...] = (
+    frequency.body_resonance,
+    frequency.body_amplification,
+    frequency.body_acceleration_amplification,
+    frequency.suspension_amplification,
+    frequency.wheel_resonance,
+    frequency.wheel_load_amplification,
+)
+NUMBERS: dict[str, Evaluate] = {function.__name__: function for function in (*RIDE, *FREQUENCY)}
+
+__all__ = ["FREQUENCY", "NUMBERS", "RIDE", "Criterion", "Number"]

@@ -1,0 +1,163 @@
+"""Numbers of vertical dynamics: body motion, suspension travel, wheel load.
+
+Every function takes a Run and returns a Number. Where a car has several wheels, the worst one counts and the note names
+it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from susp_mj.run import Run
+
+from .number import Number
+
+SETTLED_BAND = 0.05
+"""Half-width of the settling band, as a share of the largest departure from the final value."""
+CONTACT_LOST = 1e-6
+"""Wheel load [N] at or below which the wheel counts as off the road."""
+
+
+def body_acceleration_max(run: Run) -> Number:
+    """Largest upward acceleration of the body [m/s²]."""
+    return _extreme(run, "body_acceleration", np.argmax)
+
+
+def body_acceleration_min(run: Run) -> Number:
+    """Largest downward acceleration of the body [m/s²], negative."""
+    return _extreme(run, "body_acceleration", np.argmin)
+
+
+def body_acceleration_rms(run: Run) -> Number:
+    """Root mean square of the body's vertical acceleration over the whole run [m/s²]."""
+    return Number(_rms(run["body_acceleration"]), "m/s²")
+
+
+def body_displacement_max(run: Run) -> Number:
+    """Largest rise of the body above its initial height [m]."""
+    displacement = run["body_displacement"]
+    at = int(np.argmax(displacement))
+    return Number(float(displacement[at] - displacement[0]), "m", f"at {run.time[at]:.3f} s")
+
+
+def overshoot(run: Run) -> Number:
+    """Overshoot of the body over its final height, as a share of the final change: ``(z_max - z_end)/(z_end - z_0)``.
+
+    Has no value where the body ends where it began, as after a bump.
+    """
+    displacement = run["body_displacement"] - run["body_displacement"][0]
+    final = _final(displacement)
+    if abs(final) < 0.1 * float(np.abs(displacement).max()) or final == 0.0:
+        return Number(None, "1", "the body returns to its initial height")
+    return Number(max(0.0, float((displacement / final).max()) - 1.0), "1")
+
+
+def settling_time(run: Run) -> Number:
+    """Time from the first road input until the body stays within ±5 % of its largest departure from the final height [s]."""
+    displacement = run["body_displacement"]
+    start = _first_input(run)
+    departure = np.abs(displacement - _final(displacement))
+    band = SETTLED_BAND * float(departure.max())
+    outside = np.flatnonzero(departure > band)
+    if band == 0.0 or start is None:
+        return Number(None, "s", "nothing moves")
+    if outside[-1] >= len(departure) - 2:
+        return Number(None, "s", "not settled within the run")
+    return Number(float(run.time[outside[-1] + 1] - run.time[start]), "s", f"within 5 % of {1000 * float(departure.max()):.1f} mm")
+
+
+def wheel_load_min(run: Run) -> Number:
+    """Smallest wheel load [N]."""
+    return _worst(run, "wheel_load", np.argmin, min)
+
+
+def wheel_load_max(run: Run) -> Number:
+    """Largest wheel load [N]."""
+    return _worst(run, "wheel_load", np.argmax, max)
+
+
+def wheel_load_rms(run: Run) -> Number:
+    """Root mean square of the dynamic share of the wheel load, load minus initial load [N]."""
+    values = {station: _rms(load - load[0]) for station, load in run.stations("wheel_load").items()}
+    station = max(values, key=lambda each: values[each])
+    return Number(values[station], "N", station)
+
+
+def contact_loss_time(run: Run) -> Number:
+    """Time for which a wheel is off the road, summed over the run [s]."""
+    values = {station: float(np.sum(load <= CONTACT_LOST)) * run.step for station, load in run.stations("wheel_load").items()}
+    station = max(values, key=lambda each: values[each])
+    return Number(values[station], "s", station)
+
+
+def contact_loss_instant(run: Run) -> Number:
+    """First instant at which a wheel leaves the road [s]; no value if none does."""
+    first = {s: float(run.time[np.argmax(load <= CONTACT_LOST)]) for s, load in run.stations("wheel_load").items() if load.min() <= CONTACT_LOST}
+    if not first:
+        return Number(None, "s", "the wheels keep contact")
+    station = min(first, key=lambda each: first[each])
+    return Number(first[station], "s", station)
+
+
+def travel_compression(run: Run) -> Number:
+    """Largest suspension deflection in compression, from the design position [m]."""
+    return _worst(run, "suspension_deflection", np.argmax, max)
+
+
+def travel_rebound(run: Run) -> Number:
+    """Largest suspension deflection in rebound, from the design position [m], negative."""
+    return _worst(run, "suspension_deflection", np.argmin, min)
+
+
+def travel_left_compression(run: Run) -> Number:
+    """Smallest distance left to the compression stop [m], negative when pressed into it."""
+    left = {s: run.meta["travel"][s][1] - float(x.max()) for s, x in run.stations("suspension_deflection").items()}
+    station = min(left, key=lambda each: left[each])
+    return Number(left[station], "m", station)
+
+
+def travel_left_rebound(run: Run) -> Number:
+    """Smallest distance left to the rebound stop [m], negative when pulled into it."""
+    left = {s: float(x.min()) - run.meta["travel"][s][0] for s, x in run.stations("suspension_deflection").items()}
+    station = min(left, key=lambda each: left[each])
+    return Number(left[station], "m", station)
+
+
+def stop_hits(run: Run) -> Number:
+    """How many times a hard stop is hit, all wheels and both directions together."""
+    hits = 0
+    for force in run.stations("stop_force").values():
+        touching = force != 0.0
+        hits += int(touching[0]) + int(np.sum(touching[1:] & ~touching[:-1]))
+    return Number(float(hits), "1")
+
+
+def _extreme(run: Run, channel: str, pick: np.ufunc) -> Number:
+    values = run[channel]
+    at = int(pick(values))
+    return Number(float(values[at]), run.channels[channel].unit, f"at {run.time[at]:.3f} s")
+
+
+def _worst(run: Run, quantity: str, pick: np.ufunc, choose: type[min] | type[max]) -> Number:
+    """Extreme of a quantity over all stations, noting station and instant."""
+    extremes = {s: (float(v[int(pick(v))]), float(run.time[int(pick(v))])) for s, v in run.stations(quantity).items()}
+    station = choose(extremes, key=lambda each: extremes[each][0])
+    value, time = extremes[station]
+    unit = next(c.unit for c in run.channels.values() if c.quantity == quantity)
+    return Number(value, unit, f"{station} at {time:.3f} s".strip())
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def _final(values: np.ndarray) -> float:
+    """Mean over the last 2 % of the run."""
+    return float(values[-max(len(values) // 50, 1) :].mean())
+
+
+def _first_input(run: Run) -> int | None:
+    """Index of the last sample before any road input moves."""
+    moved = [np.flatnonzero(road != road[0]) for road in run.stations("road_height").values()]
+    starts = [int(each[0]) for each in moved if len(each)]
+    return max(min(starts) - 1, 0) if starts else None
