@@ -32,7 +32,7 @@ class VerticalSweep(Manoeuvre):
 
     kind: Literal["vertical_sweep"] = "vertical_sweep"
     duration: PositiveTime = 60.0
-    amplitude: PositiveLength = 0.01
+    amplitude: PositiveLength = 0.05
     start_frequency: Frequency = 0.3
     end_frequency: Frequency = 20.0
     constant_speed: bool = True

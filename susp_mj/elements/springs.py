@@ -174,12 +174,13 @@ class ProgressiveSpring(Spring):
 
     ``x < 0``: straight from F0 to F_min at x_min. ``0 <= x <= x_p``: ``F_cf = F0 exp(w² x / g)``. Above:
     ``F = F_cf(x) + (F_max - F_cf(x_max)) ((x - x_p)/(x_max - x_p))^f``, so that F(x_max) = F_max. The exponential
-    factor f is reconstructed: the formula is illegible in the source.
+    factor f is reconstructed: the formula is illegible in the source. Without F_max the spring keeps its frequency up to
+    the stop.
 
     Attributes:
         frequency: natural frequency [Hz] of the constant-frequency part.
         rebound_force: F_min [N] at the rebound stop, at least 0 and below the preload.
-        compression_force: F_max [N] at the compression stop, not below the constant-frequency curve there.
+        compression_force: F_max [N] at the compression stop, not below the constant-frequency curve there; or None.
         progressive_from: x_p [m], where the progression starts.
         exponent: exponential factor f, at least 1 (a rate without a jump needs more than 1).
     """
@@ -189,8 +190,8 @@ class ProgressiveSpring(Spring):
     kind: Literal["progressive"] = "progressive"
     frequency: Frequency
     rebound_force: NonNegativeForce
-    compression_force: PositiveForce
-    progressive_from: quantity("m", ge=0)
+    compression_force: PositiveForce | None = None
+    progressive_from: quantity("m", ge=0) = 0.0
     exponent: quantity("", ge=1) = 2.0
 
     @model_validator(mode="after")
@@ -204,7 +205,7 @@ class ProgressiveSpring(Spring):
             if self.rebound_force >= self.preload:
                 raise wrong(f"{self.rebound_force} N is not allowed; it must be below the preload of {self.preload:.0f} N", "rebound_force")
             least = self.preload * math.exp((2 * math.pi * self.frequency) ** 2 / GRAVITY * self.stops.compression)
-            if self.compression_force < least:
+            if self.compression_force is not None and self.compression_force < least:
                 raise wrong(
                     f"{self.compression_force} N is not allowed; constant frequency alone reaches {least:.0f} N at the stop",
                     "compression_force",
@@ -221,7 +222,7 @@ class ProgressiveSpring(Spring):
             growth,
             (preload - self.rebound_force) / -stops.rebound,
             self.progressive_from,
-            self.compression_force - preload * math.exp(growth * stops.compression),
+            0.0 if self.compression_force is None else self.compression_force - preload * math.exp(growth * stops.compression),
             self.exponent,
         )
 
