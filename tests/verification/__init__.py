@@ -1,0 +1,1 @@
+"""Verification: the product against equations and numbers that share no code with it."""
