@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -29,7 +30,7 @@ def constant_frequency_spring(preload: float, frequency: float) -> Curve:
 
 
 def progressive_spring(
-    preload: float, frequency: float, lower: tuple[float, float], upper: tuple[float, float], onset: float, exponent: float
+    preload: float, frequency: float, *, lower: tuple[float, float], upper: tuple[float, float], onset: float, exponent: float
 ) -> Curve:
     """Straight to `lower` (x, F) in rebound, constant frequency to `onset`, then bent up to pass through `upper`."""
     base = constant_frequency_spring(preload, frequency)
@@ -177,15 +178,13 @@ class Motion:
     state: np.ndarray
 
 
-def solve(
-    car: QuarterCar, road: Road, duration: float, spacing: float = 1e-3, method: str = "LSODA", rtol: float = 1e-9, atol: float = 1e-11
-) -> Motion:
+def solve(car: QuarterCar, road: Road, duration: float, *, spacing: float = 1e-3, method: str = "LSODA", rtol: float = 1e-9) -> Motion:
     """Integrate from rest, restarting at every kink of the road."""
     time = np.arange(round(duration / spacing) + 1) * spacing
     states = np.empty((len(time), 5))
     state = np.array(car.at_rest())
     edges = [0.0, *(k for k in road.kinks if 0 < k < duration), time[-1]]
-    for begin, end in zip(edges, edges[1:], strict=False):
+    for begin, end in pairwise(edges):
         inside = (time >= begin) & (time < end) if end < time[-1] else time >= begin
         points = time[inside]
         solution = solve_ivp(
@@ -195,7 +194,7 @@ def solve(
             method=method,
             t_eval=points if points[-1] == end else np.append(points, end),
             rtol=rtol,
-            atol=atol,
+            atol=rtol / 100,
             max_step=2e-3,
         )
         assert solution.success, solution.message
