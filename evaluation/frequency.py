@@ -101,7 +101,7 @@ def _peak(run: Run, quantity: str, unit: str, *, place: bool = False) -> Number:
     for station in run.stations(quantity):
         found = amplification(run, f"{station}_{quantity}" if station else quantity, station)
         if found is None:
-            return Number(None, unit, "needs a sine sweep")
+            return Number(None, unit, "needs a sine sweep", applies=False)
         at = int(np.argmax(np.abs(found.ratio)))
         candidate = (float(np.abs(found.ratio[at])), float(found.frequency[at]), station)
         best = candidate if best is None or candidate[0] > best[0] else best

@@ -16,11 +16,13 @@ class Number:
         value: in SI `unit`, or None where the question has no answer for this run (`note` says why).
         unit: SI unit.
         note: one phrase, e.g. the place or instant; empty if there is nothing to add.
+        applies: whether the question makes sense for this kind of run at all; a report leaves it out otherwise.
     """
 
     value: float | None
     unit: str
     note: str = ""
+    applies: bool = True
 
 
 Evaluate = Callable[[Run], Number]

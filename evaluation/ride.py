@@ -6,6 +6,9 @@ it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from susp_mj.run import Run
@@ -92,7 +95,8 @@ def contact_loss_time(run: Run) -> Number:
 
 def contact_loss_instant(run: Run) -> Number:
     """First instant at which a wheel leaves the road [s]; no value if none does."""
-    first = {s: float(run.time[np.argmax(load <= CONTACT_LOST)]) for s, load in run.stations("wheel_load").items() if load.min() <= CONTACT_LOST}
+    lost = {station: load <= CONTACT_LOST for station, load in run.stations("wheel_load").items()}
+    first = {station: float(run.time[np.argmax(off)]) for station, off in lost.items() if off.any()}
     if not first:
         return Number(None, "s", "the wheels keep contact")
     station = min(first, key=lambda each: first[each])
@@ -132,13 +136,13 @@ def stop_hits(run: Run) -> Number:
     return Number(float(hits), "1")
 
 
-def _extreme(run: Run, channel: str, pick: np.ufunc) -> Number:
+def _extreme(run: Run, channel: str, pick: Callable[..., Any]) -> Number:
     values = run[channel]
     at = int(pick(values))
     return Number(float(values[at]), run.channels[channel].unit, f"at {run.time[at]:.3f} s")
 
 
-def _worst(run: Run, quantity: str, pick: np.ufunc, choose: type[min] | type[max]) -> Number:
+def _worst(run: Run, quantity: str, pick: Callable[..., Any], choose: Callable[..., str]) -> Number:
     """Extreme of a quantity over all stations, noting station and instant."""
     extremes = {s: (float(v[int(pick(v))]), float(run.time[int(pick(v))])) for s, v in run.stations(quantity).items()}
     station = choose(extremes, key=lambda each: extremes[each][0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
 
 from .bump import Bump
@@ -13,5 +14,24 @@ MANOEUVRES: dict[str, type[Manoeuvre]] = {
     "step": RoadStep,
     "vertical_sweep": VerticalSweep,
 }
+ALIASES = {
+    "bodenwelle": "bump",
+    "schwelle": "step",
+    "gleitsinus": "vertical_sweep",
+}
+"""German names that a practitioner knows."""
 
-__all__ = ["MANOEUVRES", "Bump", "RoadStep", "VerticalSweep"]
+
+def find_manoeuvre(name: str) -> str:
+    """Registered name of a manoeuvre given by its name or German alias.
+
+    Raises:
+        InputError: no such manoeuvre.
+    """
+    found = ALIASES.get(name.lower(), name)
+    if found not in MANOEUVRES:
+        raise InputError(f"'{name}' unknown; {choices(MANOEUVRES, name)}", key="kind")
+    return found
+
+
+__all__ = ["ALIASES", "MANOEUVRES", "Bump", "RoadStep", "VerticalSweep", "find_manoeuvre"]

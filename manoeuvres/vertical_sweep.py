@@ -40,7 +40,9 @@ class VerticalSweep(Manoeuvre):
     @model_validator(mode="after")
     def _rising(self) -> VerticalSweep:
         if self.end_frequency <= self.start_frequency:
-            raise wrong(f"{self.end_frequency} Hz is not allowed; it must lie above start_frequency {self.start_frequency} Hz", "end_frequency")
+            raise wrong(
+                f"{self.end_frequency} Hz is not allowed; it must lie above start_frequency {self.start_frequency} Hz", "end_frequency"
+            )
         return self
 
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:

@@ -27,7 +27,17 @@ _HOMES = {
     "simulate": "simulation",
     "simulate_many": "simulation",
 }
-__all__ = list(_HOMES)
+__all__ = [
+    "Channel",
+    "InputError",
+    "Manoeuvre",
+    "Plant",
+    "Run",
+    "SimulationError",
+    "SuspMjError",
+    "simulate",
+    "simulate_many",
+]
 
 
 def __getattr__(name: str) -> Any:

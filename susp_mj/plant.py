@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-
 import mujoco
 import numpy as np
 
@@ -253,15 +252,12 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
     solution = root(residual, data.qpos.copy(), method="hybr", options={"xtol": 1e-14})
     if not np.max(np.abs(residual(solution.x))) < 1e-8:
         raise SimulationError(
-            f"{plant.meaning.source}: load '{plant.meaning.load}' has no static equilibrium in model {plant.meaning.model}: {_worst(plant)}"
+            f"{plant.meaning.source}: load '{plant.meaning.load}' has no static equilibrium in model {plant.meaning.model}; "
+            "check preloads and sprung mass"
         )
     _check_travel(plant, data)
     attach_input(data, None)
     return data
-
-
-def _worst(plant: Plant) -> str:
-    return "the springs cannot carry it; check preload and sprung mass"
 
 
 def _rest_states(model: mujoco.MjModel, data: mujoco.MjData) -> None:
@@ -288,10 +284,8 @@ def _check_travel(plant: Plant, data: mujoco.MjData) -> None:
         deflection = deflections[travel.station]
         if not travel.rebound < deflection < travel.compression:
             raise InputError(
-                f"the spring cannot carry load '{plant.meaning.load}': its equilibrium lies at {1000 * deflection:.1f} mm, outside the travel "
+                f"cannot carry load '{plant.meaning.load}': its equilibrium lies at {1000 * deflection:.1f} mm, outside the travel "
                 f"from {1000 * travel.rebound:.0f} to {1000 * travel.compression:.0f} mm; change preload, rate or load",
                 key=f"{travel.key}.spring",
                 source=plant.meaning.source,
             )
-
-

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -91,7 +90,8 @@ class Run:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             with netCDF4.Dataset(unfinished, "w", format="NETCDF4") as file:
-                file.setncatts({"Conventions": "CF-1.11", "title": str(self.meta.get("title", "susp_mj run")), "meta": json.dumps(self.meta)})
+                title = str(self.meta.get("title", "susp_mj run"))
+                file.setncatts({"Conventions": "CF-1.11", "title": title, "meta": json.dumps(self.meta)})
                 file.createDimension("time", len(self.time))
                 axis = file.createVariable("time", "f8", ("time",))
                 axis.units, axis[:] = "s", self.time
@@ -107,7 +107,7 @@ class Run:
                         }
                     )
                     variable[:] = channel.values
-            os.replace(unfinished, path)
+            unfinished.replace(path)
         except OSError as error:
             unfinished.unlink(missing_ok=True)
             raise InputError(f"cannot be written: {error.strerror or error}", source=str(path)) from None
@@ -143,8 +143,9 @@ class Run:
             import xarray
         except ImportError:
             raise InputError("to_xarray() needs the package xarray: pip install xarray") from None
+        attributes = {name: {"units": c.unit, "long_name": c.description, "frame": c.frame} for name, c in self.channels.items()}
         return xarray.Dataset(
-            {name: ("time", c.values, {"units": c.unit, "long_name": c.description, "frame": c.frame}) for name, c in self.channels.items()},
+            {name: ("time", channel.values, attributes[name]) for name, channel in self.channels.items()},
             coords={"time": ("time", self.time, {"units": "s"})},
             attrs={"meta": json.dumps(self.meta)},
         )

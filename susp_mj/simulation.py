@@ -27,9 +27,7 @@ _CHUNK = 2000
 Progress = Callable[[float], None]
 
 
-def simulate(
-    plant: Plant, manoeuvre: Manoeuvre, *, step: float = STEP, record_every: int = 1, progress: Progress | None = None
-) -> Run:
+def simulate(plant: Plant, manoeuvre: Manoeuvre, *, step: float = STEP, record_every: int = 1, progress: Progress | None = None) -> Run:
     """Run a manoeuvre on a plant from static equilibrium, with classical Runge-Kutta of fourth order.
 
     Inputs are sampled at half steps, where the Runge-Kutta stages ask for them, so a smooth input keeps the order.

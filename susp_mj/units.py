@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field
-from pydantic_core import PydanticCustomError
+from pydantic import GetCoreSchemaHandler
+from pydantic_core import PydanticCustomError, core_schema
 
 # unit -> (factor to SI, exponents of metre, kilogram, second, radian)
 _UNITS: dict[str, tuple[float, tuple[int, int, int, int]]] = {
@@ -84,7 +85,9 @@ def to_si(value: Any, unit: str) -> float:
         ValueError: not a number, no unit on a text, an unknown unit, another dimension, NaN or infinite.
     """
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-        raise ValueError(f"{value!r} is not a quantity; write a number in {unit or 'plain form'} or a text like '1 {unit}'")
+        raise ValueError(  # noqa: TRY004 - one kind of error for everything a user can write
+            f"{value!r} is not a quantity; write a number in {unit or 'plain form'} or a text like '1 {unit}'"
+        )
     if isinstance(value, str):
         match = _NUMBER.match(value)
         if match is None:
@@ -105,43 +108,46 @@ def to_si(value: Any, unit: str) -> float:
     return number
 
 
-class Unit:
-    """Metadata of a quantity type: the SI unit its values are held in."""
+@dataclass(frozen=True)
+class Quantity:
+    """Pydantic annotation of a float held in SI `unit`, with optional bounds: ``Annotated[float, Quantity("m", gt=0)]``."""
 
-    def __init__(self, symbol: str) -> None:
-        self.symbol = symbol
+    unit: str
+    gt: float | None = None
+    ge: float | None = None
+    lt: float | None = None
+    le: float | None = None
 
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        """Read the text or number first, then check the bounds."""
+        number = core_schema.float_schema(allow_inf_nan=False, gt=self.gt, ge=self.ge, lt=self.lt, le=self.le)
+        return core_schema.no_info_before_validator_function(self._read, number)
 
-def quantity(unit: str, **bounds: float) -> Any:
-    """Pydantic type of a quantity held in SI `unit`; `bounds` are pydantic's ``gt, ge, lt, le``."""
-
-    def read(value: Any) -> float:
+    def _read(self, value: Any) -> float:
         try:
-            return to_si(value, unit)
+            return to_si(value, self.unit)
         except ValueError as error:
             raise PydanticCustomError("quantity", "{text}", {"text": str(error)}) from None
-
-    return Annotated[float, BeforeValidator(read), Field(**bounds, json_schema_extra={"unit": unit}), Unit(unit)]
 
 
 def unit_of(metadata: Any) -> str:
     """SI unit symbol in a pydantic field's metadata, or an empty text."""
-    return next((item.symbol for item in metadata if isinstance(item, Unit)), "")
+    return next((item.unit for item in metadata if isinstance(item, Quantity)), "")
 
 
-Length = quantity("m")
-PositiveLength = quantity("m", gt=0)
-Mass = quantity("kg", gt=0)
-Inertia = quantity("kg m²", gt=0)
-Force = quantity("N")
-NonNegativeForce = quantity("N", ge=0)
-PositiveForce = quantity("N", gt=0)
-Stiffness = quantity("N/m", gt=0)
-NonNegativeStiffness = quantity("N/m", ge=0)
-Damping = quantity("N s/m", gt=0)
-Frequency = quantity("Hz", gt=0)
-Speed = quantity("m/s")
-PositiveSpeed = quantity("m/s", gt=0)
-Time = quantity("s", ge=0)
-PositiveTime = quantity("s", gt=0)
-Dimensionless = quantity("")
+Length = Annotated[float, Quantity("m")]
+PositiveLength = Annotated[float, Quantity("m", gt=0)]
+Mass = Annotated[float, Quantity("kg", gt=0)]
+Inertia = Annotated[float, Quantity("kg m²", gt=0)]
+Force = Annotated[float, Quantity("N")]
+NonNegativeForce = Annotated[float, Quantity("N", ge=0)]
+PositiveForce = Annotated[float, Quantity("N", gt=0)]
+Stiffness = Annotated[float, Quantity("N/m", gt=0)]
+NonNegativeStiffness = Annotated[float, Quantity("N/m", ge=0)]
+Damping = Annotated[float, Quantity("N s/m", gt=0)]
+Frequency = Annotated[float, Quantity("Hz", gt=0)]
+Speed = Annotated[float, Quantity("m/s")]
+PositiveSpeed = Annotated[float, Quantity("m/s", gt=0)]
+Time = Annotated[float, Quantity("s", ge=0)]
+PositiveTime = Annotated[float, Quantity("s", gt=0)]
+Dimensionless = Annotated[float, Quantity("")]

@@ -22,7 +22,8 @@ DESIGN_LOAD = "ko"
 
 
 def _status(text: str) -> str:
-    if text.split(":")[0] not in ("measured", "cited", "estimated") or not text.partition(":")[2].strip():
+    status, _, reason = text.partition(":")
+    if status not in ("measured", "cited", "estimated") or not reason.strip():
         raise PydanticCustomError("wrong", "{text}", {"text": f"'{text}' must read 'measured: …', 'cited: …' or 'estimated: …'"})
     return text
 
@@ -94,7 +95,7 @@ class Vehicle(Description):
     front: Axle | None = None
     rear: Axle | None = None
     loads: dict[str, LoadCase] = Field(min_length=1)
-    sources: dict[str, Provenance] = {}
+    sources: dict[str, Provenance] = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _complete(self) -> Vehicle:
@@ -182,7 +183,7 @@ def load_vehicle(name: str | Path, characteristics: str | None = None, overrides
     Raises:
         InputError: file, key, value, and what is allowed.
     """
-    path = _find(name)
+    path = find_vehicle(name)
     data = read_toml(path)
     sets = data.pop("characteristics", {})
     default = data.pop("default", "")
@@ -205,7 +206,7 @@ def load_vehicle(name: str | Path, characteristics: str | None = None, overrides
 
 def characteristic_sets(name: str | Path) -> dict[str, str]:
     """Names and titles of the sets of characteristics in a vehicle file; empty if it has one car only."""
-    sets = read_toml(_find(name)).get("characteristics", {})
+    sets = read_toml(find_vehicle(name)).get("characteristics", {})
     return {key: str(value.get("title", key)) for key, value in sets.items()}
 
 
@@ -259,7 +260,12 @@ def leaves(data: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
             yield path
 
 
-def _find(name: str | Path) -> Path:
+def find_vehicle(name: str | Path) -> Path:
+    """Path of a shipped car or of the file given.
+
+    Raises:
+        InputError: neither exists.
+    """
     text = str(name)
     if text.endswith(".toml"):
         path = Path(text)

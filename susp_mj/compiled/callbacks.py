@@ -11,15 +11,14 @@ from typing import Any
 
 import mujoco
 from llvmlite import ir
-from numba import carray, cfunc, from_dtype, types
-from numba.extending import intrinsic
+from numba import carray, cfunc, from_dtype, types  # pyright: ignore[reportPrivateImportUsage]
 
 from ..elements import LAWS
 from ..elements.law import ACTUATOR_MARK, LAW_TABLE_SIZE, USERDATA_HEADER
 from ..errors import CallbackError
 from .laws import compile_laws
 from .layout import LAYOUT
-from .memory import bits, doubles, ints
+from .memory import bits, doubles, intrinsic, ints
 
 MODEL = types.CPointer(from_dtype(LAYOUT.record("model")))
 DATA = types.CPointer(from_dtype(LAYOUT.record("data")))
@@ -29,10 +28,10 @@ def _table_call(symbol: str) -> Any:
     """Intrinsic ``call(number, x, v, y, parameters)`` through a table of addresses; 0 where the table is empty."""
 
     @intrinsic
-    def call(context, number, x, v, y, parameters):  # noqa: ANN001, ANN202
+    def call(context, number, x, v, y, parameters):
         signature = types.float64(types.intp, types.float64, types.float64, types.float64, types.CPointer(types.float64))
 
-        def generate(target, builder, signature, arguments):  # noqa: ANN001, ANN202
+        def generate(target, builder, signature, arguments):
             word, double = ir.IntType(64), ir.DoubleType()
             table = builder.module.globals.get(symbol)
             if table is None:
@@ -57,7 +56,7 @@ _state_rate_of = _table_call("susp_mj_state_table")
 
 
 @cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
-def _force(model_pointer, data_pointer, actuator):  # noqa: ANN001, ANN202
+def _force(model_pointer, data_pointer, actuator):
     model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
     stride = model.nuser_actuator
     if stride < 2:
@@ -74,7 +73,7 @@ def _force(model_pointer, data_pointer, actuator):  # noqa: ANN001, ANN202
 
 
 @cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
-def _state_rate(model_pointer, data_pointer, actuator):  # noqa: ANN001, ANN202
+def _state_rate(model_pointer, data_pointer, actuator):
     model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
     stride = model.nuser_actuator
     state_address = ints(model.actuator_actadr)[actuator]
@@ -91,7 +90,7 @@ def _state_rate(model_pointer, data_pointer, actuator):  # noqa: ANN001, ANN202
 
 
 @cfunc(types.void(MODEL, DATA), cache=True)
-def _inputs(model_pointer, data_pointer):  # noqa: ANN001, ANN202
+def _inputs(model_pointer, data_pointer):
     """Write the input's value to `ctrl` and its rate to `userdata`, at the time of this stage.
 
     The block (see `loop.input_block`) holds samples at half steps, which is where a Runge-Kutta stage asks.

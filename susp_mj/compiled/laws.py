@@ -55,4 +55,3 @@ def _compiled(law: Law, function: ScalarLaw) -> Any:
         reason = str(error).strip().splitlines()[0]
         raise CallbackError(f"law '{law.name}' does not compile ({reason}); use math and plain arithmetic only") from error
     return compiled
-

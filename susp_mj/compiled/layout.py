@@ -53,12 +53,12 @@ def _probe(actuators: int, user: int, userdata: int) -> tuple[mujoco.MjModel, mu
     return model, mujoco.MjData(model)
 
 
-def _words(struct: Any, kind: type, count: int) -> np.ndarray:
+def _words(struct: Any, kind: Any, count: int) -> np.ndarray:
     """The first `count` words of the struct's memory."""
     return np.frombuffer((kind * count).from_address(struct._address), dtype=kind)
 
 
-def _find(structs: Sequence[Any], name: str, kind: type) -> int:
+def _find(structs: Sequence[Any], name: str, kind: Any) -> int:
     """Offset at which every one of `structs` holds its own value of field `name`.
 
     The window grows until the field is in it, so that no more memory than needed is looked at. Pointers to empty arrays
@@ -70,9 +70,7 @@ def _find(structs: Sequence[Any], name: str, kind: type) -> int:
         common = sorted(set.intersection(*places))
         if common and common[-1] - common[0] == (len(common) - 1) * width:
             return int(common[-1])
-    raise CallbackError(
-        f"MuJoCo {mujoco.__version__}: cannot find {type(structs[0]).__name__}.{name} in memory; install mujoco 4.0"
-    )
+    raise CallbackError(f"MuJoCo {mujoco.__version__}: cannot find {type(structs[0]).__name__}.{name} in memory; install mujoco 4.0")
 
 
 def _expected(struct: Any, name: str) -> float:
@@ -80,7 +78,7 @@ def _expected(struct: Any, name: str) -> float:
     return value.__array_interface__["data"][0] if isinstance(value, np.ndarray) else value
 
 
-def _kind(name: str) -> type:
+def _kind(name: str) -> Any:
     return ctypes.c_int32 if name in MODEL_SIZES else ctypes.c_double if name in DATA_SCALARS else ctypes.c_uint64
 
 

@@ -1,16 +1,20 @@
 """Raw memory for compiled code: an address as a pointer, a double as its bits."""
 
-# ruff: noqa: ANN001, ANN202 - intrinsics are written in numba's own untyped protocol
-
 from __future__ import annotations
+
+from typing import Any
 
 from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
+from numba.extending import intrinsic as _intrinsic
+
+intrinsic: Any = _intrinsic  # its decorated functions take one argument fewer than the type checker believes
 
 
 @intrinsic
 def doubles(context, address):
+    """Pointer to the doubles at an address."""
+
     def cast(target, builder, signature, arguments):
         return builder.inttoptr(arguments[0], target.get_value_type(signature.return_type))
 
@@ -19,6 +23,8 @@ def doubles(context, address):
 
 @intrinsic
 def ints(context, address):
+    """Pointer to the 32-bit integers at an address."""
+
     def cast(target, builder, signature, arguments):
         return builder.inttoptr(arguments[0], target.get_value_type(signature.return_type))
 

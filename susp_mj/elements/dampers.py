@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike
 from pydantic import Field, field_validator, model_validator
 
 from ..description import Description, wrong
-from ..units import Damping, NonNegativeForce, Stiffness, quantity
+from ..units import Damping, NonNegativeForce, Quantity, Stiffness
 from .element import Element, FloatArray, chosen_from
 from .law import Law, Parameters
+
 
 def hydraulic_force(speed: float, p: Parameters) -> float:
     """Force of the piecewise straight characteristic in p = mount rate, friction, n_c, n_r, then (v, F, slope) each."""
@@ -141,7 +142,7 @@ class ZonedDamper(Damper):
 
     kind: Literal["zoned"] = "zoned"
     rates: tuple[Damping, ...] = Field(min_length=1, max_length=3)
-    limits: tuple[quantity("m/s", gt=0), ...] = ()
+    limits: tuple[Annotated[float, Quantity("m/s", gt=0)], ...] = ()
     ratio: tuple[float, float] = (1.0, 1.0)
 
     @field_validator("ratio", mode="before")
@@ -183,8 +184,8 @@ class TableDamper(Damper):
     """
 
     kind: Literal["table"] = "table"
-    speed: tuple[quantity("m/s"), ...] = Field(min_length=2, max_length=500)
-    force: tuple[quantity("N"), ...] = Field(min_length=2, max_length=500)
+    speed: tuple[Annotated[float, Quantity("m/s")], ...] = Field(min_length=2, max_length=500)
+    force: tuple[Annotated[float, Quantity("N")], ...] = Field(min_length=2, max_length=500)
 
     @model_validator(mode="after")
     def _increasing(self) -> TableDamper:

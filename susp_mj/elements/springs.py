@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from pydantic import Field, model_validator
 
 from ..description import wrong
-from ..units import Frequency, NonNegativeForce, PositiveForce, Stiffness, quantity
+from ..units import Frequency, NonNegativeForce, PositiveForce, Quantity, Stiffness
 from .element import Element, FloatArray, chosen_from
 from .law import Law, Parameters
 from .stops import Stops
@@ -112,7 +112,8 @@ class Spring(Element):
         low, high = self.force_at([self.stops.rebound, self.stops.compression])
         if not low < force < high:
             raise ValueError(f"cannot carry {force:.0f} N; between its stops it carries {low:.0f} N to {high:.0f} N")
-        return float(brentq(lambda x: float(self.force_at(x)) - force, self.stops.rebound, self.stops.compression, xtol=1e-12))
+        root: Any = brentq(lambda x: float(self.force_at(x)) - force, self.stops.rebound, self.stops.compression, xtol=1e-12)
+        return float(root)
 
     def _known_preload(self) -> float:
         if self.preload is None:
@@ -191,8 +192,8 @@ class ProgressiveSpring(Spring):
     frequency: Frequency
     rebound_force: NonNegativeForce
     compression_force: PositiveForce | None = None
-    progressive_from: quantity("m", ge=0) = 0.0
-    exponent: quantity("", ge=1) = 2.0
+    progressive_from: Annotated[float, Quantity("m", ge=0)] = 0.0
+    exponent: Annotated[float, Quantity("", ge=1)] = 2.0
 
     @model_validator(mode="after")
     def _monotone(self) -> ProgressiveSpring:
@@ -242,8 +243,8 @@ class TableSpring(Spring):
 
     kind: Literal["table"] = "table"
     preload: None = None
-    deflection: tuple[quantity("m"), ...] = Field(min_length=2, max_length=500)
-    force: tuple[quantity("N"), ...] = Field(min_length=2, max_length=500)
+    deflection: tuple[Annotated[float, Quantity("m")], ...] = Field(min_length=2, max_length=500)
+    force: tuple[Annotated[float, Quantity("N")], ...] = Field(min_length=2, max_length=500)
 
     @model_validator(mode="after")
     def _increasing(self) -> TableSpring:

@@ -1,0 +1,1 @@
+"""What is decided: cases, published claims, the command line. Knows every other package; none knows it."""

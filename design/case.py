@@ -1,0 +1,287 @@
+"""Case files: one model, one manoeuvre, several configurations, criteria; run to a folder with summary, plots and report."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field, model_validator
+
+from evaluation import NUMBERS, Criterion
+from evaluation.characteristics import characteristic
+from evaluation.compare import Claim, Comparison, Configuration, evaluate
+from manoeuvres import MANOEUVRES, find_manoeuvre
+from susp_mj.description import Description, validate, wrong
+from susp_mj.errors import InputError, choices
+from susp_mj.manoeuvre import Manoeuvre
+from susp_mj.plant import Plant
+from susp_mj.simulation import STEP, simulate
+from susp_mj.units import Quantity, to_si
+from vehicles.mjcf import MODELS, build
+from vehicles.vehicle import DESIGN_LOAD, Vehicle, load_vehicle, read_toml
+
+FOLDER = Path(__file__).parent / "cases"
+Report = Callable[[str, float], None]
+"""Progress: called with what is being done and the fraction done, 0 to 1."""
+
+
+class Band(Description):
+    """Allowed band of a number; a bound is a number in SI or a text with a unit."""
+
+    min: float | str | None = None
+    max: float | str | None = None
+
+
+class Setting(Description):
+    """One configuration of a case.
+
+    Attributes:
+        name: label in tables and plots.
+        vehicle: shipped car or path of a TOML file, relative to the case file.
+        characteristics: which of the vehicle's sets.
+        load: load case.
+        axle: for models of one axle.
+        set: overrides by dotted path, as a vehicle file would have them.
+    """
+
+    name: str = Field(min_length=1)
+    vehicle: str
+    characteristics: str | None = None
+    load: str = DESIGN_LOAD
+    axle: str | None = None
+    set: dict[str, Any] = Field(default_factory=dict)
+
+
+class Case(Description):
+    """A case file.
+
+    Attributes:
+        title, description: for the report.
+        model: topology, a key of `vehicles.mjcf.MODELS`.
+        manoeuvre: a table with its `kind` and parameters.
+        configuration: what is compared, in order.
+        numbers: evaluation numbers; all that apply if empty.
+        criteria: bands by number.
+        step: integration step [s].
+        record_every: keep every n-th step.
+    """
+
+    title: str
+    description: str = ""
+    model: str
+    manoeuvre: dict[str, Any]
+    configuration: tuple[Setting, ...] = Field(min_length=1)
+    numbers: tuple[str, ...] = ()
+    criteria: dict[str, Band] = Field(default_factory=dict)
+    step: Annotated[float, Quantity("s", gt=0)] = STEP
+    record_every: int = Field(default=1, ge=1)
+
+    @model_validator(mode="after")
+    def _known_names(self) -> Case:
+        if self.model not in MODELS:
+            raise wrong(f"'{self.model}' unknown; {choices(MODELS, self.model)}", "model")
+        for key, names in (("numbers", self.numbers), ("criteria", tuple(self.criteria))):
+            for name in names:
+                if name not in NUMBERS:
+                    raise wrong(f"'{name}' unknown; {choices(NUMBERS, name)}", key)
+        labels = [each.name for each in self.configuration]
+        for i, label in enumerate(labels):
+            if label in labels[:i]:
+                raise wrong(f"'{label}' names two configurations", f"configuration.{i}.name")
+        return self
+
+
+def available_cases() -> list[str]:
+    """Names of the cases that come with susp_mj."""
+    return sorted(path.stem for path in FOLDER.glob("*.toml"))
+
+
+def load_case(name: str | Path) -> tuple[Case, Path]:
+    """Read a case, shipped or from a file; returns it and the file's path.
+
+    Raises:
+        InputError: file, key, value, and what is allowed.
+    """
+    path = Path(name)
+    if path.suffix != ".toml":
+        if str(name) not in available_cases():
+            raise InputError(f"no case '{name}'; {choices(available_cases(), name)}, or give a .toml file", key="case")
+        path = FOLDER / f"{name}.toml"
+    return validate(Case, read_toml(path), source=path.name), path
+
+
+def read_manoeuvre(table: dict[str, Any], source: str = "") -> Manoeuvre:
+    """A manoeuvre from its table.
+
+    Raises:
+        InputError: unknown kind, or a parameter that is wrong.
+    """
+    kind = table.get("kind")
+    if not isinstance(kind, str):
+        raise InputError(f"is required; {choices(MANOEUVRES)}", key="manoeuvre.kind", source=source)
+    try:
+        name = find_manoeuvre(kind)
+    except InputError as error:
+        raise error.within(key="manoeuvre", source=source) from None
+    return validate(MANOEUVRES[name], {**table, "kind": name}, source=source, key="manoeuvre")
+
+
+def run_case(case: Case, path: Path, progress: Report = lambda task, done: None) -> Comparison:
+    """Simulate and evaluate every configuration of a case.
+
+    Args:
+        path: the case file; vehicle files are looked for beside it.
+
+    Raises:
+        InputError: naming file, key and value.
+        SimulationError: a run diverged or has no equilibrium.
+    """
+    manoeuvre = read_manoeuvre(case.manoeuvre, path.name)
+    prepared = [_prepare(case, setting, path, i) for i, setting in enumerate(case.configuration)]
+    names = tuple(dict.fromkeys((*case.numbers, *case.criteria))) if case.numbers else tuple(NUMBERS)
+    configurations = []
+    for i, (setting, (vehicle, plant)) in enumerate(zip(case.configuration, prepared, strict=True)):
+
+        def report(done: float, i: int = i, label: str = setting.name) -> None:
+            progress(f"simulate {label}", (i + done) / len(prepared))
+
+        try:
+            run = simulate(plant, manoeuvre, step=case.step, record_every=case.record_every, progress=report)
+        except InputError as error:
+            raise error.within(source=path.name) from None
+        wanted = {*case.numbers, *case.criteria}
+        numbers = {name: number for name, number in evaluate(run, names).items() if number.applies or name in wanted}
+        title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, f"load {setting.load}") if part)
+        axles = dict.fromkeys(travel.key for travel in plant.meaning.travels)
+        curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in axles]
+        configurations.append(Configuration(setting.name, title, run, numbers, curves))
+    return Comparison(case.title, case.description, configurations, _criteria(case, configurations, path.name))
+
+
+def _prepare(case: Case, setting: Setting, path: Path, index: int) -> tuple[Vehicle, Plant]:
+    """Vehicle and plant of one configuration, errors naming its place in the case file."""
+    name = setting.vehicle
+    try:
+        vehicle = load_vehicle(path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set)
+        return vehicle, build(vehicle, case.model, setting.load, setting.axle)
+    except InputError as error:
+        if error.source:
+            raise
+        raise error.within(key=f"configuration.{index}", source=path.name) from None
+
+
+def _criteria(case: Case, configurations: Sequence[Configuration], source: str) -> dict[str, Criterion]:
+    criteria = {}
+    for name, band in case.criteria.items():
+        unit = NUMBERS[name](configurations[0].run).unit
+        bounds: list[float | None] = []
+        for key in ("min", "max"):
+            value = getattr(band, key)
+            try:
+                bounds.append(None if value is None else to_si(value, "" if unit == "1" else unit))
+            except ValueError as error:
+                raise InputError(str(error), key=f"criteria.{name}.{key}", source=source) from None
+        if bounds[0] is not None and bounds[1] is not None and bounds[0] > bounds[1]:
+            raise InputError(f"min {bounds[0]:g} lies above max {bounds[1]:g}", key=f"criteria.{name}", source=source)
+        criteria[name] = Criterion(bounds[0], bounds[1])
+    return criteria
+
+
+def carry_out(
+    case: Case,
+    path: Path,
+    out: Path,
+    *,
+    video: bool = False,
+    claims: Callable[[Comparison], Sequence[Claim]] | None = None,
+    progress: Report = lambda task, done: None,
+) -> Comparison:
+    """Run a case and leave ``summary.json``, ``runs/*.nc``, ``plots/*.svg``, ``report.html`` and a video in `out`.
+
+    The folder receives everything at once at the end; after an error it is as it was.
+
+    Args:
+        claims: published statements to hold against the results.
+
+    Raises:
+        InputError, SimulationError: as `run_case`; or `out` cannot be written.
+    """
+    started = time.perf_counter()
+    with staged(out) as stage:
+        comparison = run_case(case, path, progress)
+        if claims is not None:
+            comparison = replace(comparison, claims=tuple(claims(comparison)))
+        simulated = time.perf_counter() - started
+        if video:
+            comparison = replace(comparison, videos=(_make_video(comparison, stage, progress),))
+        _write_results(comparison, stage, {"simulate_s": round(simulated, 3)}, progress)
+    return comparison
+
+
+def _make_video(comparison: Comparison, stage: Path, progress: Report) -> str:
+    from evaluation.animation import Clip, render_video
+
+    clips = [Clip(each.name, each.run) for each in comparison.configurations]
+    return render_video(clips, stage / "video.mp4", progress=lambda done: progress("render video", done)).name
+
+
+def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float], progress: Report) -> None:
+    from evaluation.report import write_report, write_summary
+
+    from evaluation.plots import save_plots
+
+    started = time.perf_counter()
+    progress("write results", 0.0)
+    for each in comparison.configurations:
+        each.run.save(stage / "runs" / f"{file_name(each.name)}.nc")
+    progress("write results", 0.2)
+    save_plots(comparison, stage / "plots")
+    progress("write results", 0.6)
+    write_report(comparison, stage / "report.html", [stage / name for name in comparison.videos])
+    versions = comparison.configurations[0].run.meta["versions"]
+    timings = {**timings, "report_s": round(time.perf_counter() - started, 3)}
+    write_summary(comparison, stage / "summary.json", {"versions": versions, "timings": timings})
+    progress("write results", 1.0)
+
+
+def file_name(label: str) -> str:
+    """A label as a file name: letters, digits, dot, dash and underscore stay."""
+    return "".join(letter if letter.isalnum() or letter in "._-" else "_" for letter in label)
+
+
+@contextmanager
+def staged(out: Path) -> Iterator[Path]:
+    """A folder to write into; on success its contents move into `out`, on any error nothing of it remains.
+
+    Raises:
+        InputError: `out` cannot be written.
+    """
+    created = [folder for folder in (out, *out.parents) if not folder.exists()]
+    stage: Path | None = None
+    try:
+        try:
+            out.mkdir(parents=True, exist_ok=True)
+            stage = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=out))
+        except OSError as error:
+            raise InputError(f"cannot be written: {error.strerror}", source=str(out)) from None
+        yield stage
+        for item in sorted(stage.rglob("*")):
+            if item.is_file():
+                target = out / item.relative_to(stage)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                item.replace(target)
+        created = []
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror or error}", source=str(out)) from None
+    finally:
+        if stage is not None:
+            shutil.rmtree(stage, ignore_errors=True)
+        for folder in created:
+            if folder.is_dir() and not any(folder.iterdir()):
+                folder.rmdir()

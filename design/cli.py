@@ -1,0 +1,212 @@
+"""The command line: `susp-mj`. Exit codes: 0 done, 1 criteria or claims not met, 2 bad input."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from susp_mj.errors import InputError, SuspMjError
+
+if TYPE_CHECKING:
+    from .case import Case, Report
+
+app = typer.Typer(
+    help="Lay out vehicle springs, dampers and anti-roll bars: simulate, evaluate, compare, animate.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+Out = Annotated[Path, typer.Option("--out", "-o", help="Folder for the results; made if it is not there.")]
+Video = Annotated[bool, typer.Option("--video", help="Also render an animation (needs EGL and ffmpeg, see 'susp-mj doctor').")]
+Characteristics = Annotated[str | None, typer.Option("--characteristics", "-c", help="Which of the car's sets of characteristics.")]
+
+
+@app.command()
+def demo(out: Out = Path("out/demo"), video: Annotated[bool, typer.Option(help="Render the animation.")] = True) -> None:
+    """Reproduce chapter 3 of the thesis: claims beside results, report and video."""
+    from .case import carry_out, load_case
+    from .reproduce import chapter3_claims
+    from .show import print_claims, print_comparison
+
+    case, path = load_case("chapter3")
+    with _progress() as progress:
+        comparison = carry_out(case, path, out, video=video and _can_make_video(), claims=chapter3_claims, progress=progress)
+    print_comparison(comparison)
+    print_claims(comparison)
+    _say_where(out)
+    if not all(claim.holds for claim in comparison.claims):
+        raise typer.Exit(1)
+
+
+@app.command()
+def run(
+    case: Annotated[str, typer.Argument(help="Case file, or the name of a shipped case ('susp-mj list').")],
+    out: Out = Path("out"),
+    video: Video = False,
+    strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 if a criterion is not met.")] = False,
+) -> None:
+    """Run a case file: simulate every configuration, evaluate, compare, report."""
+    from .case import load_case
+
+    _run(*load_case(case), out, video=video, strict=strict)
+
+
+@app.command()
+def show(
+    car: Annotated[str, typer.Argument(help="Shipped car or vehicle file.")],
+    out: Annotated[Path | None, typer.Option("--out", "-o", help="Also write the characteristic sheet to this HTML file.")] = None,
+) -> None:
+    """Show a car's characteristics: key values here, curves in the sheet."""
+    from .show import print_sheet, write_car_sheet
+
+    print_sheet(car)
+    if out is not None:
+        write_car_sheet(car, out)
+        typer.echo(f"sheet: {out}")
+
+
+@app.command()
+def build(
+    car: Annotated[str, typer.Argument(help="Shipped car or vehicle file.")],
+    model: Annotated[str, typer.Option("--model", "-m", help="Topology, see 'susp-mj list'.")],
+    characteristics: Characteristics = None,
+    load: Annotated[str, typer.Option(help="Load case.")] = "ko",
+    axle: Annotated[str | None, typer.Option(help="front or rear, for models of one axle.")] = None,
+    out: Annotated[Path | None, typer.Option("--out", "-o", help="File to write; default CAR_MODEL.xml.")] = None,
+) -> None:
+    """Write a model as a self-contained MJCF file."""
+    from vehicles.mjcf import write
+    from vehicles.vehicle import load_vehicle
+
+    vehicle = load_vehicle(car, characteristics)
+    folder = Path("vehicles/mjcf") if Path("vehicles/mjcf").is_dir() else Path()
+    typer.echo(write(vehicle, model, out or folder / f"{vehicle.name}_{model}.xml", load, axle))
+
+
+@app.command("list")
+def list_() -> None:
+    """List cars, models, manoeuvres, cases, elements and evaluation numbers."""
+    from .show import print_lists
+
+    print_lists()
+
+
+@app.command()
+def new(car: Annotated[str, typer.Argument(help="Name of the car; writes CAR.toml here.")]) -> None:
+    """Start a vehicle file of your own from a commented template."""
+    path = Path(car if car.endswith(".toml") else f"{car}.toml")
+    template = Path(__file__).parent / "templates" / "vehicle.toml"
+    try:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(template.read_text(encoding="utf-8"))
+    except FileExistsError:
+        raise InputError("exists already; choose another name", source=str(path)) from None
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror}", source=str(path)) from None
+    typer.echo(f"{path}: edit it, then: susp-mj show {path}")
+
+
+@app.command()
+def doctor() -> None:
+    """Check what susp_mj needs on this machine, with the fix for what is missing."""
+    from .doctor import examine
+
+    findings = examine()
+    for finding in findings:
+        mark = typer.style("ok  ", fg="green") if finding.fix is None else typer.style("FIX ", fg="red")
+        typer.echo(f"{mark}{finding.name}: {finding.found}" + ("" if finding.fix is None else f"\n    {finding.fix}"))
+    if any(finding.fix is not None for finding in findings):
+        raise typer.Exit(1)
+
+
+def manoeuvre_script(kind: str) -> None:
+    """Foot of a manoeuvre module: run it as a script on configurations named on its command line."""
+    from .script import case_from_arguments
+
+    def go() -> None:
+        _run(*case_from_arguments(kind, sys.argv[1:]))
+
+    _guarded(go)
+
+
+def main() -> None:
+    """Entry point of `susp-mj`."""
+    _guarded(app)
+
+
+def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool) -> None:
+    from .case import carry_out
+    from .show import print_comparison
+
+    if video:
+        _require_video()
+    with _progress() as progress:
+        comparison = carry_out(case, path, out, video=video, progress=progress)
+    print_comparison(comparison)
+    _say_where(out)
+    if strict and not comparison.passed:
+        raise typer.Exit(1)
+
+
+def _guarded(command: object) -> None:
+    """Run a command; a known error becomes one line and exit code 2, never a traceback."""
+    try:
+        command()  # type: ignore[operator]
+    except SuspMjError as error:
+        typer.echo(f"{typer.style('error:', fg='red')} {error}", err=True)
+        sys.exit(2)
+    except typer.Exit as leave:
+        sys.exit(leave.exit_code)
+    except BrokenPipeError:
+        sys.stderr.close()
+        sys.exit(0)
+
+
+@contextmanager
+def _progress() -> Iterator[Report]:
+    """A progress bar on a terminal, silence elsewhere."""
+    if not sys.stderr.isatty():
+        yield lambda task, done: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description:<24}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda name, done: bar.update(task, description=name, completed=done)
+
+
+def _can_make_video() -> bool:
+    """Whether a video can be made here; says what to install if not."""
+    reason = _video_obstacle()
+    if reason is not None:
+        typer.echo(f"no video: {reason}", err=True)
+    return reason is None
+
+
+def _require_video() -> None:
+    reason = _video_obstacle()
+    if reason is not None:
+        raise InputError(reason, key="--video")
+
+
+def _video_obstacle() -> str | None:
+    from evaluation.animation import can_render
+
+    return can_render()
+
+
+def _say_where(out: Path) -> None:
+    typer.echo(f"results in {out}: report.html, summary.json, plots/, runs/" + (", video.mp4" if (out / "video.mp4").is_file() else ""))
+
+
+if __name__ == "__main__":
+    main()

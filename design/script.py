@@ -1,0 +1,90 @@
+"""A manoeuvre module as a script: its parameters and the configurations to compare as command-line options."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from manoeuvres import MANOEUVRES
+from susp_mj.description import validate
+from susp_mj.manoeuvre import Manoeuvre
+from susp_mj.units import unit_of
+from vehicles.mjcf import MODELS
+from vehicles.vehicle import DESIGN_LOAD
+
+from .case import Case, Setting
+
+DEFAULT_VEHICLE, DEFAULT_MODEL = "chapter3", "quarter_2dof"
+
+
+def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path, Path, bool, bool]:
+    """Case, its nominal path, output folder, video, strict, as `cli` wants them.
+
+    A configuration is one combination of the given vehicles, sets of characteristics and load cases.
+    """
+    manoeuvre = MANOEUVRES[kind]
+    options = vars(_parser(kind, manoeuvre).parse_args(arguments))
+    parameters = {name: options[name] for name in manoeuvre.model_fields if options.get(name) is not None}
+    vehicles = options["vehicle"] or [DEFAULT_VEHICLE]
+    settings = [
+        Setting(
+            name=_label(vehicles, vehicle, sets, load, options["load"]),
+            vehicle=_absolute(vehicle),
+            characteristics=sets,
+            load=load,
+            axle=options["axle"],
+        )
+        for vehicle in vehicles
+        for sets in options["characteristics"] or [None]
+        for load in options["load"]
+    ]
+    case = validate(
+        Case,
+        {
+            "title": f"{kind}: {', '.join(each.name for each in settings)}",
+            "model": options["model"],
+            "manoeuvre": {**parameters, "kind": kind},
+            "configuration": [each.model_dump() for each in settings],
+        },
+        source=f"{kind}.py",
+    )
+    return case, Path(f"{kind}.py"), options["out"], options["video"], False
+
+
+def _absolute(vehicle: str) -> str:
+    return str(Path(vehicle).resolve()) if vehicle.endswith(".toml") else vehicle
+
+
+def _label(vehicles: Sequence[str], vehicle: str, sets: str | None, load: str, loads: Sequence[str]) -> str:
+    parts = [Path(vehicle).stem if len(vehicles) > 1 or sets is None else "", sets or "", load if len(loads) > 1 else ""]
+    return ", ".join(part for part in parts if part)
+
+
+def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog=f"{kind}.py", description=(manoeuvre.__doc__ or "").split("\n\n")[0], allow_abbrev=False)
+    parser.add_argument("--vehicle", action="append", help=f"car or vehicle file, repeatable (default {DEFAULT_VEHICLE})")
+    parser.add_argument("--characteristics", "-c", action="append", help="set of characteristics of the car, repeatable")
+    parser.add_argument("--load", nargs="+", default=[DESIGN_LOAD], help="load cases (default ko)")
+    parser.add_argument("--model", "-m", default=DEFAULT_MODEL, help=f"{', '.join(MODELS)} (default {DEFAULT_MODEL})")
+    parser.add_argument("--axle", choices=("front", "rear"))
+    parser.add_argument("--out", "-o", type=Path, default=Path("out") / kind, help=f"folder for the results (default out/{kind})")
+    parser.add_argument("--video", action="store_true", help="also render an animation")
+    group = parser.add_argument_group("parameters", "a number in SI, or a text with its unit like '80 mm'")
+    for name, field in manoeuvre.model_fields.items():
+        if name != "kind":
+            unit = unit_of(field.metadata)
+            text = f"default {field.default}{' ' + unit if unit else ''}"
+            group.add_argument(f"--{name.replace('_', '-')}", dest=name, type=_value, help=text, metavar=unit or "VALUE")
+    return parser
+
+
+def _value(text: str) -> Any:
+    """A bare number is SI; true and false are switches; the rest is a text with a unit."""
+    if text.lower() in ("true", "false"):
+        return text.lower() == "true"
+    try:
+        return float(text)
+    except ValueError:
+        return text

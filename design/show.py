@@ -1,0 +1,156 @@
+"""Tables for the terminal: comparisons, claims, characteristic sheets, what there is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from evaluation.display import quantity_text
+from evaluation.number import Number
+
+if TYPE_CHECKING:
+    from evaluation.compare import Characteristic, Comparison
+
+
+def print_comparison(comparison: Comparison) -> None:
+    """Numbers of all configurations side by side; failed criteria in red."""
+    table = Table(title=comparison.title, box=SIMPLE_HEAD, title_justify="left")
+    table.add_column("number")
+    for each in comparison.configurations:
+        table.add_column(each.name, justify="right")
+    verdicts = [comparison.verdicts(each) for each in comparison.configurations]
+    for name in comparison.configurations[0].numbers:
+        cells = [_cell(each.numbers[name], verdict.get(name)) for each, verdict in zip(comparison.configurations, verdicts, strict=True)]
+        table.add_row(name, *cells)
+    console = _console()
+    console.print(table)
+    for each, verdict in zip(comparison.configurations, verdicts, strict=True):
+        failed = [f"{name} {_band(v)}" for name, v in verdict.items() if not v["passed"]]
+        if verdict:
+            console.print(f"{each.name}: " + (f"fails {', '.join(failed)}" if failed else "meets all criteria"))
+
+
+def print_claims(comparison: Comparison) -> None:
+    """Published claims beside results."""
+    table = Table(title="Claims of the thesis", box=SIMPLE_HEAD, title_justify="left")
+    for column in ("claim", "expected", "result", ""):
+        table.add_column(column)
+    for claim in comparison.claims:
+        table.add_row(Text(claim.text), claim.expected, claim.result, Text("holds", "green") if claim.holds else Text("FAILS", "bold red"))
+    _console().print(table)
+
+
+def print_sheet(car: str) -> None:
+    """Key values of every set of characteristics of a car."""
+    table = Table(title=f"Characteristics of {car}, effective at the wheel", box=SIMPLE_HEAD, title_justify="left")
+    headings = ("set", "axle", "preload", "rate at KO", "frequency at KO", "travel", "damper at ±0.1 m/s", "at ±0.5 m/s")
+    for column in headings:
+        table.add_column(column, justify="left" if column in ("set", "axle") else "right")
+    for label, curves in _sets(car).items():
+        for i, curve in enumerate(curves):
+            table.add_row("" if i else label, curve.title, *_key_values(curve))
+    _console().print(table)
+
+
+def write_car_sheet(car: str, path: Path) -> None:
+    """Write the characteristic sheet of a car as one HTML file."""
+    from evaluation.report import write_sheet
+
+    from vehicles.vehicle import find_vehicle, read_toml
+
+    data = read_toml(find_vehicle(car))
+    write_sheet(f"Characteristics of {data.get('title', car)}", _sets(car), path, {"vehicle": find_vehicle(car).name})
+
+
+def _sets(car: str) -> dict[str, Sequence[Characteristic]]:
+    from evaluation.characteristics import characteristic
+    from vehicles.vehicle import characteristic_sets, load_vehicle
+
+    result: dict[str, Sequence[Characteristic]] = {}
+    for name in characteristic_sets(car) or {None: ""}:
+        vehicle = load_vehicle(car, name)
+        axles = [axle for axle in ("front", "rear") if getattr(vehicle, axle) is not None]
+        result[name or vehicle.name] = [characteristic(f"{axle} axle", vehicle.axle(axle)) for axle in axles]
+    return result
+
+
+def _key_values(curve: Characteristic) -> list[str]:
+    import numpy as np
+
+    def at(x: float, axis: Sequence[float], values: Sequence[float]) -> float:
+        return float(np.interp(x, axis, values))
+
+    rate = at(0.0, curve.deflection, curve.spring_rate)
+    force = [[at(sign * v, curve.speed, curve.damper_force) for sign in (1, -1)] for v in (0.1, 0.5)]
+    frequency = (rate * 9.81 / curve.preload) ** 0.5 / (2 * np.pi)
+    travel = curve.deflection[np.isfinite(curve.spring_rate)][[0, -1]]
+    return [
+        quantity_text(curve.preload, "N"),
+        quantity_text(rate, "N/m"),
+        quantity_text(frequency, "Hz"),
+        f"{1000 * travel[0]:.0f} … {1000 * travel[1]:.0f} mm",
+        *(f"{c:.0f} / {r:.0f} N" for c, r in force),
+    ]
+
+
+def print_lists() -> None:
+    """Everything there is to choose from."""
+    from evaluation import NUMBERS
+    from manoeuvres import ALIASES, MANOEUVRES
+    from susp_mj.elements import DAMPERS, SPRINGS, TYRES
+    from vehicles.mjcf import MODELS
+    from vehicles.vehicle import available_vehicles, characteristic_sets
+
+    from .case import available_cases
+
+    german = {name: alias for alias, name in ALIASES.items()}
+    cars = {name: ", ".join(characteristic_sets(name)) for name in available_vehicles()}
+    first_lines = {name: _first_line(kind) + (f" ({german[name]})" if name in german else "") for name, kind in MANOEUVRES.items()}
+    _print_pairs("Cars and their sets of characteristics", cars)
+    _print_pairs("Models", {name: topology.title for name, topology in MODELS.items()})
+    _print_pairs("Manoeuvres (German name)", first_lines)
+    _print_pairs("Cases", {name: _case_title(name) for name in available_cases()})
+    _print_pairs("Elements", {"springs": ", ".join(SPRINGS), "dampers": ", ".join(DAMPERS), "tyres": ", ".join(TYRES)})
+    _print_pairs("Evaluation numbers", {name: _first_line(number) for name, number in NUMBERS.items()})
+
+
+def _case_title(name: str) -> str:
+    from .case import load_case
+
+    return load_case(name)[0].title
+
+
+def _print_pairs(title: str, pairs: dict[str, str]) -> None:
+    table = Table(title=title, box=None, show_header=False, title_justify="left", title_style="bold", pad_edge=False)
+    for name, text in pairs.items():
+        table.add_row(name, Text(text))
+    console = _console()
+    console.print(table)
+    console.print()
+
+
+def _first_line(thing: object) -> str:
+    return (thing.__doc__ or "").split("\n")[0]
+
+
+def _cell(number: Number, verdict: dict[str, object] | None) -> Text:
+    style = "" if verdict is None else "green" if verdict["passed"] else "bold red"
+    return Text(quantity_text(number.value, number.unit), style)
+
+
+def _band(verdict: dict[str, object]) -> str:
+    low, high, unit = verdict["min"], verdict["max"], str(verdict["unit"])
+    parts = [f"{sign} {quantity_text(float(str(bound)), unit)}" for sign, bound in ((">=", low), ("<=", high)) if bound is not None]
+    return f"({quantity_text(None if verdict['value'] is None else float(str(verdict['value'])), unit)}, allowed {' and '.join(parts)})"
+
+
+def _console() -> Console:
+    """Colour on a terminal only; wide enough for a table when piped."""
+    console = Console(highlight=False, markup=False)
+    return console if console.is_terminal else Console(highlight=False, markup=False, width=160)
