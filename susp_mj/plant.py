@@ -17,6 +17,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from .elements.law import ACTUATOR_MARK
 from .errors import InputError, SimulationError
 
 META = "susp_mj"
@@ -141,17 +142,19 @@ class Plant:
             raise InputError("no such file", source=str(path))
         try:
             model = mujoco.MjModel.from_xml_path(str(path))
-            text = model.text(META)
-        except (ValueError, KeyError) as error:
+        except ValueError as error:
             reason = " ".join(str(error).split())
             raise InputError(f"is not a model that susp-mj built: {reason}", source=str(path)) from None
-        data = model.text_data[text.adr[0] : text.adr[0] + text.size[0]]
+        text = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_TEXT, META)
+        if text < 0:
+            raise InputError(f"is not a model that susp-mj built: it has no custom text '{META}'", source=str(path))
+        data = model.text_data[model.text_adr[text] : model.text_adr[text] + model.text_size[text]]
         return cls(model, Meaning.from_json(bytes(data).rstrip(b"\0").decode()))
 
     @cached_property
     def laws(self) -> tuple[int, ...]:
         """Numbers of the force laws that the model uses."""
-        return tuple(sorted({int(user[1]) for user in self.model.actuator_user if len(user) > 1}))
+        return tuple(sorted({int(user[1]) for user in self.model.actuator_user if len(user) > 1 and user[0] == ACTUATOR_MARK}))
 
     def index(self, source: str, name: str) -> int:
         """Position of a joint or actuator in MuJoCo's array `source`."""

@@ -35,9 +35,9 @@ def compile_laws(numbers: Iterable[int]) -> None:
         CallbackError: no law has that number, or numba cannot compile one.
     """
     for number in numbers:
+        if number not in LAWS:
+            raise CallbackError(f"the model uses force law {number}, which is not known; register its element first")
         if FORCE_TABLE[number] == 0:
-            if number not in LAWS:
-                raise CallbackError(f"the model uses force law {number}, which is not known; register its element first")
             law = LAWS[number]
             if law.state_rate is not None:
                 STATE_TABLE[number] = _compiled(law, law.state_rate).address
