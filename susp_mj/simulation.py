@@ -56,7 +56,7 @@ def simulate(plant: Plant, manoeuvre: Manoeuvre, *, step: float = STEP, record_e
     install(plant.laws)
 
     steps = max(round(manoeuvre.duration / step / record_every), 1) * record_every
-    samples = _sample(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2))
+    samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2))
     block = input_block(samples, step / 2, plant.entries())
     at_rest = samples[:1].copy()
     at_rest[..., 1] = 0.0
@@ -101,7 +101,7 @@ def simulate_many(
         return list(pool.map(lambda job: simulate(*job, step=step, record_every=record_every), jobs))
 
 
-def _sample(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray) -> np.ndarray:
+def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray) -> np.ndarray:
     """(samples, inputs, 2) values and rates of every input of the plant."""
     samples = np.zeros((len(time), len(plant.meaning.inputs), 2))
     for i, place in enumerate(plant.meaning.inputs):
