@@ -1,0 +1,148 @@
+"""The command line as a user meets it: exit codes, one-line errors, files left behind."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+
+
+def call(*arguments: str, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "design.cli", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env={**os.environ, **environment}, timeout=300, check=False)
+
+
+def script(name: str, *arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, str(ROOT / "manoeuvres" / f"{name}.py"), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=300, check=False)
+
+
+def test_list_names_everything_registered():
+    from evaluation import NUMBERS
+    from manoeuvres import MANOEUVRES
+    from susp_mj.elements import DAMPERS, SPRINGS
+    from vehicles import available_vehicles
+    from vehicles.mjcf import MODELS
+
+    result = call("list")
+    assert result.returncode == 0
+    for name in (*NUMBERS, *MANOEUVRES, *SPRINGS, *DAMPERS, *available_vehicles(), *MODELS):
+        assert name in result.stdout
+    assert "[m/s²]" in result.stdout
+
+
+def test_run_prints_a_table_without_colour_codes_when_piped(tmp_path):
+    result = call("run", "chapter3", "--out", str(tmp_path / "out"))
+    assert result.returncode == 0
+    assert "11.24 m/s²" in result.stdout
+    assert "\x1b" not in result.stdout + result.stderr
+    assert (tmp_path / "out" / "report.html").is_file()
+
+
+def test_strict_turns_failed_criteria_into_exit_code_1(tmp_path):
+    assert call("run", "chapter3", "--strict", "--out", str(tmp_path / "out")).returncode == 1
+
+
+def test_strict_passes_when_criteria_are_met(tmp_path):
+    case = tmp_path / "soft.toml"
+    case.write_text(
+        'title = "soft"\nmodel = "quarter_2dof"\nmanoeuvre = { kind = "bump", duration = 1 }\n'
+        '[[configuration]]\nname = "soft"\nvehicle = "chapter3"\ncharacteristics = "soft_linear"\n'
+        "[criteria]\nbody_acceleration_max = { max = 9 }\n"
+    )
+    assert call("run", str(case), "--strict", "--out", str(tmp_path / "out")).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "parts"),
+    [
+        (("run", "no_such.toml"), ["no_such.toml: no such file"]),
+        (("show", "s_klass"), ["did you mean 's_class'"]),
+        (("build", "chapter3", "-m", "quarter"), ["model: no model 'quarter'", "quarter_2dof"]),
+        (("build", "s_class", "-m", "quarter_2dof", "--load", "heavy"), ["s_class.toml: load", "empty"]),
+        (("build", "s_class", "-m", "quarter_2dof", "--axle", "middle"), ["s_class.toml: axle", "front, rear"]),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(tmp_path, arguments, parts):
+    result = call(*arguments, cwd=tmp_path)
+    assert result.returncode == 2
+    assert len(result.stderr.strip().splitlines()) == 1
+    assert "Traceback" not in result.stderr
+    for part in parts:
+        assert part in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_unwritable_folder_is_bad_input(tmp_path):
+    (tmp_path / "file").write_text("")
+    result = call("run", "chapter3", "--out", str(tmp_path / "file" / "out"))
+    assert result.returncode == 2
+    assert "cannot be written" in result.stderr
+
+
+def test_demo_reproduces_chapter_3(tmp_path):
+    result = call("demo", "--no-video", "--out", str(tmp_path / "demo"))
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.count("holds") == 8
+    assert "FAILS" not in result.stdout
+    summary = json.loads((tmp_path / "demo" / "summary.json").read_text())
+    assert [claim["holds"] for claim in summary["claims"]] == [True] * 8
+
+
+def test_demo_goes_on_without_egl_and_says_what_to_install(tmp_path):
+    result = call("demo", "--out", str(tmp_path / "demo"), MUJOCO_GL="no_such_backend")
+    assert result.returncode == 0, result.stderr
+    assert "no video" in result.stderr
+    assert "libegl1" in result.stderr
+    assert (tmp_path / "demo" / "report.html").is_file()
+    assert not (tmp_path / "demo" / "video.mp4").exists()
+
+
+def test_new_makes_a_car_that_can_be_shown_built_and_driven(tmp_path):
+    assert call("new", "mine", cwd=tmp_path).returncode == 0
+    again = call("new", "mine", cwd=tmp_path)
+    assert again.returncode == 2
+    assert "mine.toml: exists already" in again.stderr
+    shown = call("show", "mine.toml", "--out", "sheet.html", cwd=tmp_path)
+    assert shown.returncode == 0, shown.stderr
+    assert "26.00 kN/m" in shown.stdout
+    assert (tmp_path / "sheet.html").is_file()
+    assert call("build", "mine.toml", "-m", "quarter_2dof", cwd=tmp_path).returncode == 0
+    assert (tmp_path / "mine_quarter_2dof.xml").is_file()
+    driven = script("bump", "--vehicle", "mine.toml", "--load", "ko", "full", "--axle", "front", "--out", "o", cwd=tmp_path)
+    assert driven.returncode == 0, driven.stderr
+    assert len(json.loads((tmp_path / "o" / "summary.json").read_text())["configurations"]) == 2
+
+
+@pytest.mark.parametrize("name", ["bump", "road_step", "vertical_sweep"])
+def test_a_manoeuvre_is_a_script(tmp_path, name):
+    result = script(name, "-c", "linear", "-c", "nonlinear", "--duration", "2 s", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    (summary,) = tmp_path.rglob("summary.json")
+    assert [each["configuration"] for each in json.loads(summary.read_text())["configurations"]] == ["linear", "nonlinear"]
+
+
+def test_a_manoeuvre_script_refuses_bad_parameters_in_one_line(tmp_path):
+    result = script("bump", "--height", "8 kg", cwd=tmp_path)
+    assert result.returncode == 2
+    assert len(result.stderr.strip().splitlines()) == 1
+    assert "manoeuvre.height: '8 kg'" in result.stderr
+
+
+def test_doctor_reports_each_need():
+    result = call("doctor")
+    for name in ("MuJoCo", "compiled callbacks", "offscreen rendering", "ffmpeg"):
+        assert name in result.stdout
+    assert result.returncode == 0, result.stdout
+
+
+def test_doctor_names_the_fix_for_missing_egl():
+    result = call("doctor", MUJOCO_GL="no_such_backend")
+    assert result.returncode == 1
+    assert "libegl1" in result.stdout
