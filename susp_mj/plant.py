@@ -252,8 +252,12 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
 
     mujoco.mj_forward(model, data)
     weight = np.maximum(np.abs(data.qfrc_bias), 1.0)
-    solution = root(residual, data.qpos.copy(), method="hybr", options={"xtol": 1e-14})
-    if not np.max(np.abs(residual(solution.x))) < 1e-8:
+    start = data.qpos.copy()
+    for method in ("hybr", "lm"):  # a stop is a kink at which either may stall
+        position = root(residual, start, method=method, options={"xtol": 1e-14}).x
+        if np.max(np.abs(residual(position))) < 1e-8:
+            break
+    else:
         raise SimulationError(
             f"{plant.meaning.source}: load '{plant.meaning.load}' has no static equilibrium in model {plant.meaning.model}; "
             "check preloads and sprung mass"
