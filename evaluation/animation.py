@@ -270,49 +270,45 @@ class QuarterScene:
         self.renderer = mujoco.Renderer(self.model, size[1], size[0])
         self.renderer.scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = 1
         self.camera = _camera(self.model, size)
-        self._coil = self.model.geom("coil").id
-
-    def pose(self, pose: Pose) -> None:
-        """Put every part in its place."""
-        import mujoco
-
-        for joint, value in {
-            "body": pose.body,
-            "wheel": pose.wheel,
-            "spin": pose.spin,
-            "road": -pose.travelled,
-            "plate": pose.road,
-            "slope": -float(np.arctan(pose.slope)),
-        }.items():
-            self.data.joint(joint).qpos[0] = value
-        mujoco.mj_kinematics(self.model, self.data)
-        mujoco.mj_comPos(self.model, self.data)
-        mujoco.mj_camlight(self.model, self.data)
-        self.renderer.update_scene(self.data, self.camera)
-        self._stretch_coil(pose.coil_length / COIL_LENGTH)
 
     def picture(self, time: float) -> np.ndarray:
         """(height, width, 3) picture at a time of the run [s]."""
-        self.pose(pose_at(self.run, time))
+        pose = pose_at(self.run, time)
+        place(self.model, self.data, pose)
+        self.renderer.update_scene(self.data, self.camera)
+        stretch_coil(self.model, self.data, self.renderer.scene, pose)
         return self.renderer.render()
 
     def close(self) -> None:
         """Free the OpenGL context."""
         self.renderer.close()
 
-    def _stretch_coil(self, factor: float) -> None:
-        """Scale the coil along z about its lower end, in the scene only: a geom's matrix there need not be orthonormal."""
-        import mujoco
 
-        mesh = self.model.geom_dataid[self._coil]
-        turned = np.zeros(9)
-        mujoco.mju_quat2Mat(turned, self.model.mesh_quat[mesh])
-        scale = np.diag([1.0, 1.0, factor])
-        foot = self.data.site("coil_foot").xpos
-        for drawn in self.renderer.scene.geoms[: self.renderer.scene.ngeom]:
-            if drawn.objtype == mujoco.mjtObj.mjOBJ_GEOM and drawn.objid == self._coil:
-                drawn.pos[:] = foot + scale @ self.model.mesh_pos[mesh]
-                drawn.mat[:] = scale @ turned.reshape(3, 3)
+def place(model: Any, data: Any, pose: Pose) -> None:
+    """Put every part of the picture in its place; lights and cameras too, or the scene goes dark."""
+    import mujoco
+
+    joints = {"body": pose.body, "wheel": pose.wheel, "spin": pose.spin, "road": -pose.travelled, "plate": pose.road}
+    for joint, value in {**joints, "slope": -float(np.arctan(pose.slope))}.items():
+        data.joint(joint).qpos[0] = value
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_camlight(model, data)
+
+
+def stretch_coil(model: Any, data: Any, scene: Any, pose: Pose) -> None:
+    """Scale the coil along z from its foot, in the updated scene only: a geom's matrix there need not be orthonormal."""
+    import mujoco
+
+    coil = model.geom("coil").id
+    mesh = model.geom_dataid[coil]
+    turned = np.zeros(9)
+    mujoco.mju_quat2Mat(turned, model.mesh_quat[mesh])
+    scale = np.diag([1.0, 1.0, pose.coil_length / COIL_LENGTH])
+    for drawn in scene.geoms[: scene.ngeom]:
+        if drawn.objtype == mujoco.mjtObj.mjOBJ_GEOM and drawn.objid == coil:
+            drawn.pos[:] = data.site("coil_foot").xpos + scale @ model.mesh_pos[mesh]
+            drawn.mat[:] = scale @ turned.reshape(3, 3)
 
 
 class _Picture:
