@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from susp_mj.errors import InputError, choices
 from susp_mj.run import Run
 
@@ -14,15 +16,31 @@ from .number import Criterion, Number
 
 
 @dataclass(frozen=True)
+class ElementNote:
+    """Which law an element follows, for the equations of a report.
+
+    Attributes:
+        role: ``spring``, ``stops``, ``damper``, ``mount``, ``friction`` or ``tyre``.
+        kind: its kind, as files write it.
+        text: what its class says of itself.
+    """
+
+    role: str
+    kind: str
+    text: str
+
+
+@dataclass(frozen=True)
 class Characteristic:
     """Sampled characteristics of one suspension, for the F-x, rate, frequency and F-v plots; arrays in SI.
 
     Attributes:
         title: e.g. "rear axle".
-        deflection, spring_force, spring_rate, spring_frequency: over the travel, the stops included in the force.
-        load: mass-proportional spring force [N] belonging to each frequency.
+        deflection, spring_force, spring_rate, spring_frequency: over the travel and a little beyond, the stops included
+            in the force; rate and frequency belong to the spring alone and are not a number beyond the stops.
         speed, damper_force: hydraulic force over speed, without mount and friction.
         preload: [N].
+        elements: what the suspension is made of.
     """
 
     title: str
@@ -33,6 +51,13 @@ class Characteristic:
     speed: Any
     damper_force: Any
     preload: float
+    elements: Sequence[ElementNote] = ()
+
+    @property
+    def stops(self) -> tuple[float, float]:
+        """Deflections [m] of the rebound and the compression stop."""
+        inside = self.deflection[np.isfinite(self.spring_rate)]
+        return float(inside[0]), float(inside[-1])
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,72 @@
+"""Characteristics of a suspension, sampled from its spring and damper for plots and sheets."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from .compare import Characteristic, ElementNote
+
+BEYOND_STOPS = 0.04
+"""How far the samples reach beyond each stop, as a share of the travel."""
+LARGEST_SPEED = 1.5
+"""Damper speeds are sampled up to this, in compression and in rebound [m/s]."""
+
+
+def characteristic(title: str, axle: Any) -> Characteristic:
+    """Sample the characteristics of one axle, effective at the wheel.
+
+    Args:
+        title: e.g. "rear axle".
+        axle: what carries a ``spring`` with its preload and stops, and a ``damper``; ``friction`` and ``tyre`` may be None.
+    """
+    spring, damper = axle.spring, axle.damper
+    stops = spring.stops
+    deflection = _deflections(stops.rebound, stops.compression)
+    inside = (deflection >= stops.rebound) & (deflection <= stops.compression)
+    speed = _speeds()
+    return Characteristic(
+        title=title,
+        deflection=deflection,
+        spring_force=spring.force_at(deflection) + stops.evaluate(deflection),
+        spring_rate=np.where(inside, spring.rate_at(np.clip(deflection, stops.rebound, stops.compression)), np.nan),
+        spring_frequency=np.where(inside, _frequency(spring, np.clip(deflection, stops.rebound, stops.compression)), np.nan),
+        speed=speed,
+        damper_force=damper.force_at(speed),
+        preload=float(spring.force_at(0.0)),
+        elements=tuple(_notes(axle)),
+    )
+
+
+def _deflections(rebound: float, compression: float) -> np.ndarray:
+    """Sampled deflections [m]; the stops and the design position are among them."""
+    reach = BEYOND_STOPS * (compression - rebound)
+    ends = [rebound - reach, rebound, 0.0, compression, compression + reach]
+    counts = (8, 120, 120, 9)
+    return np.unique(np.concatenate([np.linspace(a, b, n) for a, b, n in zip(ends[:-1], ends[1:], counts, strict=True)]))
+
+
+def _speeds() -> np.ndarray:
+    """Sampled damper speeds [m/s], every centimetre per second, so that the usual zone limits are met."""
+    count = round(LARGEST_SPEED * 100)
+    return np.arange(-count, count + 1) / 100
+
+
+def _frequency(spring: Any, deflection: np.ndarray) -> np.ndarray:
+    """Natural frequency [Hz]; not a number where the spring carries nothing."""
+    carries = spring.force_at(deflection) > 0
+    result = np.full(len(deflection), np.nan)
+    result[carries] = spring.frequency_at(deflection[carries])
+    return result
+
+
+def _notes(axle: Any) -> Iterator[ElementNote]:
+    """What the elements of an axle are, for the equations of the report."""
+    for role in ("spring", "stops", "damper", "mount", "friction", "tyre"):
+        holder = {"stops": axle.spring, "mount": axle.damper}.get(role, axle)
+        element = getattr(holder, role, None)
+        if element is not None:
+            yield ElementNote(role, getattr(element, "kind", role), inspect.getdoc(type(element)) or "")
