@@ -234,16 +234,17 @@ def _make_video(comparison: Comparison, stage: Path, progress: Report) -> str:
 def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float], progress: Report) -> None:
     from evaluation.report import write_report, write_summary
 
-    from evaluation.plots import save_plots
+    from evaluation.plots import draw, save_plots
 
     started = time.perf_counter()
     progress("write results", 0.0)
     for each in comparison.configurations:
         each.run.save(stage / "runs" / f"{file_name(each.name)}.nc")
     progress("write results", 0.2)
-    save_plots(comparison, stage / "plots")
-    progress("write results", 0.6)
-    write_report(comparison, stage / "report.html", [stage / name for name in comparison.videos])
+    plots = draw(comparison)
+    progress("write results", 0.8)
+    save_plots(comparison, stage / "plots", plots)
+    write_report(comparison, stage / "report.html", plots=plots)
     versions = comparison.configurations[0].run.meta["versions"]
     timings = {**timings, "report_s": round(time.perf_counter() - started, 3)}
     write_summary(comparison, stage / "summary.json", {"versions": versions, "timings": timings})
