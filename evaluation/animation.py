@@ -710,8 +710,8 @@ class Hud:
         s = self.scale
         right, top = box.left + box.width - 18 * s, box.top + 40 * s
         width, height = 20 * s, min(210 * s, box.height - 120 * s)
-        load, static = at(run, "wheel_load", time), float(run["wheel_load"][0])
         lifted, total = lift(run, self.window, time)
+        load, static = 0.0 if lifted else at(run, "wheel_load", time), float(run["wheel_load"][0])
         tone = rgb(LIFTED) if lifted else _mixed((38, 140, 88), (235, 150, 20), float(np.clip(2 - load / max(static, 1.0), 0.0, 1.0)))
         draw.rounded_rectangle(
             [right - width, top, right, top + height], 4 * s, (255, 255, 255), rgb(LIFTED) if lifted else _SOFT, max(round(s), 1)
