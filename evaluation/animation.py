@@ -696,7 +696,7 @@ class Hud:
         s, run = self.scale, clip.run
         left, top = box.left + 16 * s, box.top + 14 * s
         font = _font(16 * s, bold=True)
-        label = shortened(clip.label, font, box.width - 60 * s)
+        label = shortened(clip.label, font, box.width - 146 * s)
         draw.rounded_rectangle([left, top, left + font.getlength(label) + 24 * s, top + 29 * s], 8 * s, colour)
         draw.text((left + 12 * s, top + 14.5 * s), label, (255, 255, 255), font, anchor="lm")
         draw.text((left + 2 * s, top + 42 * s), "body acceleration", _SOFT, _font(12.5 * s))
@@ -765,7 +765,7 @@ def playback_text(playback: float) -> str:
 
 
 _PARAMETERS = {
-    "height": ("{:.0f} mm high", 1000.0),
+    "height": ("{:+.0f} mm", 1000.0),
     "length": ("{:.3g} m long", 1.0),
     "amplitude": ("amplitude {:.3g} mm", 1000.0),
     "rise_time": ("within {:.0f} ms", 1000.0),
@@ -777,12 +777,12 @@ _TITLES = {"bump": "Bump", "step": "Road step", "vertical_sweep": "Vertical sine
 
 
 def describe(manoeuvre: Mapping[str, Any]) -> str:
-    """One line that says what is done: ``Bump · 80 mm high · 2 m long · at 50 km/h``."""
+    """One line that says what is done: ``Bump · +80 mm · 2 m long · at 50 km/h``."""
     kind = str(manoeuvre.get("kind", "run"))
     parts = [
         text.format(manoeuvre[key] * factor) for key, (text, factor) in _PARAMETERS.items() if isinstance(manoeuvre.get(key), (int, float))
     ]
-    return "  ·  ".join([_TITLES.get(kind, kind.replace("_", " ")), *parts])
+    return "  ·  ".join([_TITLES.get(kind, kind.replace("_", " ")), *parts]).replace("-", "−")
 
 
 def shortened(text: str, font: Any, width: float) -> str:
