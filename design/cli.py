@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -131,7 +132,8 @@ def manoeuvre_script(kind: str) -> None:
     from .script import case_from_arguments
 
     def go() -> None:
-        _run(*case_from_arguments(kind, sys.argv[1:]))
+        case, path, out, video = case_from_arguments(kind, sys.argv[1:])
+        _run(case, path, out, video=video, strict=False)
 
     _guarded(go)
 
@@ -156,7 +158,11 @@ def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool) -> Non
 
 
 def _guarded(command: object) -> None:
-    """Run a command; a known error becomes one line and exit code 2, never a traceback."""
+    """Run a command; a known error becomes one line and exit code 2, never a traceback.
+
+    MuJoCo cannot be imported under a MUJOCO_GL that does not work, and only rendering needs it: it is kept for that.
+    """
+    os.environ.setdefault("SUSP_MJ_GL", os.environ.pop("MUJOCO_GL", ""))
     try:
         command()  # type: ignore[operator]
     except SuspMjError as error:

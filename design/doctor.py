@@ -74,9 +74,7 @@ def _rendering() -> Finding:
 
 
 def _ffmpeg() -> Finding:
-    from evaluation.video import find_ffmpeg
+    from evaluation.video import NO_FFMPEG, ffmpeg_program
 
-    try:
-        return Finding("ffmpeg", str(find_ffmpeg()))
-    except SuspMjError as error:
-        return Finding("ffmpeg", "not found", str(error))
+    program = ffmpeg_program()
+    return Finding("ffmpeg", program or "not found", None if program else NO_FFMPEG)

@@ -19,8 +19,8 @@ from .case import Case, Setting
 DEFAULT_VEHICLE, DEFAULT_MODEL = "chapter3", "quarter_2dof"
 
 
-def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path, Path, bool, bool]:
-    """Case, its nominal path, output folder, video, strict, as `cli` wants them.
+def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path, Path, bool]:
+    """Case, its nominal path, output folder, and whether a video is wanted.
 
     A configuration is one combination of the given vehicles, sets of characteristics and load cases.
     """
@@ -50,7 +50,7 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
         },
         source=f"{kind}.py",
     )
-    return case, Path(f"{kind}.py"), options["out"], options["video"], False
+    return case, Path(f"{kind}.py"), options["out"], options["video"]
 
 
 def _absolute(vehicle: str) -> str:

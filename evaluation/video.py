@@ -34,11 +34,11 @@ _PROBE_LIMIT = 60.0
 
 @functools.cache
 def gl_backend() -> str | None:
-    """Value of MUJOCO_GL that works here, found in a process of its own; None if none does.
+    """Value of MUJOCO_GL that works here, found in a process of its own; None if none does. SUSP_MJ_GL is tried first.
 
     MuJoCo cannot even be imported under a value that does not work, so this process never sets it.
     """
-    wanted = os.environ.get("MUJOCO_GL", "").strip().lower()
+    wanted = (os.environ.get("SUSP_MJ_GL") or os.environ.get("MUJOCO_GL", "")).strip().lower()
     usual = ["egl", "osmesa"] if sys.platform.startswith("linux") else [""]
     for backend in dict.fromkeys([wanted, *usual] if wanted else usual):
         if _draws(backend):

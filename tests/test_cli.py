@@ -9,6 +9,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
+
+from design.cli import app
+from evaluation import video
+from susp_mj import InputError
 
 ROOT = Path(__file__).parent.parent
 
@@ -95,13 +100,40 @@ def test_demo_reproduces_chapter_3(tmp_path):
     assert [claim["holds"] for claim in summary["claims"]] == [True] * 8
 
 
-def test_demo_goes_on_without_egl_and_says_what_to_install(tmp_path):
-    result = call("demo", "--out", str(tmp_path / "demo"), MUJOCO_GL="no_such_backend")
-    assert result.returncode == 0, result.stderr
-    assert "no video" in result.stderr
-    assert "libegl1" in result.stderr
+@pytest.fixture
+def no_gl(monkeypatch):
+    """A machine on which nothing draws."""
+    video.gl_backend.cache_clear()
+    monkeypatch.setattr(video, "_draws", lambda backend: False)
+    yield
+    video.gl_backend.cache_clear()
+
+
+def test_demo_goes_on_without_egl_and_says_what_to_install(tmp_path, no_gl):
+    result = CliRunner().invoke(app, ["demo", "--out", str(tmp_path / "demo")])
+    assert result.exit_code == 0, result.output
+    assert "no video" in result.output
+    assert "libegl1" in result.output
     assert (tmp_path / "demo" / "report.html").is_file()
     assert not (tmp_path / "demo" / "video.mp4").exists()
+
+
+def test_run_with_video_is_refused_without_egl(tmp_path, no_gl):
+    result = CliRunner().invoke(app, ["run", "chapter3", "--video", "--out", str(tmp_path / "out")])
+    assert isinstance(result.exception, InputError)
+    assert "libegl1" in str(result.exception)
+    assert not (tmp_path / "out").exists()
+
+
+def test_doctor_names_the_fix_for_missing_egl(no_gl):
+    result = CliRunner().invoke(app, ["doctor"])
+    assert result.exit_code == 1
+    assert "libegl1" in result.output
+
+
+def test_a_gl_setting_that_does_not_work_does_not_stop_a_simulation(tmp_path):
+    result = call("run", "chapter3", "--out", str(tmp_path / "out"), MUJOCO_GL="no_such_backend")
+    assert result.returncode == 0, result.stderr
 
 
 def test_new_makes_a_car_that_can_be_shown_built_and_driven(tmp_path):
@@ -140,9 +172,3 @@ def test_doctor_reports_each_need():
     for name in ("MuJoCo", "compiled callbacks", "offscreen rendering", "ffmpeg"):
         assert name in result.stdout
     assert result.returncode == 0, result.stdout
-
-
-def test_doctor_names_the_fix_for_missing_egl():
-    result = call("doctor", MUJOCO_GL="no_such_backend")
-    assert result.returncode == 1
-    assert "libegl1" in result.stdout
