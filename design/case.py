@@ -232,9 +232,8 @@ def _make_video(comparison: Comparison, stage: Path, progress: Report) -> str:
 
 
 def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float], progress: Report) -> None:
-    from evaluation.report import write_report, write_summary
-
     from evaluation.plots import draw, save_plots
+    from evaluation.report import write_report, write_summary
 
     started = time.perf_counter()
     progress("write results", 0.0)

@@ -61,7 +61,6 @@ def print_sheet(car: str) -> None:
 def write_car_sheet(car: str, path: Path) -> None:
     """Write the characteristic sheet of a car as one HTML file."""
     from evaluation.report import write_sheet
-
     from vehicles.vehicle import find_vehicle, read_toml
 
     data = read_toml(find_vehicle(car))

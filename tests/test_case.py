@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 from pathlib import Path
 
@@ -154,5 +153,5 @@ def test_an_error_while_writing_leaves_the_folder_as_it_was(tmp_path):
     with pytest.raises(RuntimeError), staged(out) as stage:
         (stage / "mine.txt").write_text("half")
         raise RuntimeError
-    assert os.listdir(out) == ["mine.txt"]
+    assert [path.name for path in out.iterdir()] == ["mine.txt"]
     assert (out / "mine.txt").read_text() == "keep"
