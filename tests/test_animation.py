@@ -9,8 +9,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from evaluation import animation, video
-from evaluation.animation import COIL_LENGTH, Clip, can_render, place, pose_at, quarter_spec, render_video, stretch_coil, window_of
+from evaluation import video
+from evaluation.animation import Clip, can_render, render, render_video
+from evaluation.animation.clip import tyre_deflection
+from evaluation.animation.quarter_scene import place, pose_at, stretch_coil
+from evaluation.animation.quarter_shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
+from evaluation.animation.window import LONGEST_CLIP, window_of
 from evaluation.colours import COLOURS, rgb
 from manoeuvres import Bump, RoadStep, VerticalSweep
 from susp_mj import InputError, SuspMjError, simulate
@@ -123,8 +127,8 @@ def test_coil_is_as_long_as_the_suspension_says(model):
 
 def test_tyre_touches_the_road_exactly_while_it_carries():
     run = run_of("linear", "quarter_2dof")
-    gap = run["wheel_displacement"] - run["road_height"] - animation.tyre_deflection(run)
-    assert 0.02 < animation.tyre_deflection(run) < 0.04
+    gap = run["wheel_displacement"] - run["road_height"] - tyre_deflection(run)
+    assert 0.02 < tyre_deflection(run) < 0.04
     lifted = run["wheel_load"] <= 0
     assert lifted.any() and gap[lifted].min() > -1e-6 and gap[~lifted].max() < 1e-6
 
@@ -132,7 +136,7 @@ def test_tyre_touches_the_road_exactly_while_it_carries():
 def test_wheel_rolls_without_slip_and_stands_still_on_the_rig():
     driving = pose_at(run_of("linear"), 0.5)
     assert driving.travelled == pytest.approx(0.5 * 50 / 3.6)
-    assert driving.spin * animation.WHEEL_RADIUS == pytest.approx(driving.travelled)
+    assert driving.spin * WHEEL_RADIUS == pytest.approx(driving.travelled)
     standing = pose_at(run_of("linear", manoeuvre=RoadStep(duration=1.0)), 0.5)
     assert (standing.spin, standing.travelled, standing.slope) == (0, 0, 0)
     assert standing.road == standing.wheel == pytest.approx(0.03)
@@ -143,7 +147,7 @@ def test_long_excitation_shows_where_the_wheel_load_varies_most():
     window = window_of([run], 30, None)
     peak = run.time[np.argmax(np.abs(run["wheel_load"] - run["wheel_load"][0]))]
     assert 0 <= window.start < peak < window.end <= run.time[-1] + 1e-9
-    assert (window.end - window.start) / window.playback <= animation.LONGEST_CLIP
+    assert (window.end - window.start) / window.playback <= LONGEST_CLIP
 
 
 def test_same_runs_same_file(drawing, clips, tmp_path, monkeypatch):
@@ -173,7 +177,7 @@ def test_without_opengl_the_packages_are_named(clips, tmp_path, monkeypatch):
 
 
 def test_without_ffmpeg_the_package_is_named(drawing, monkeypatch):
-    monkeypatch.setattr(animation, "ffmpeg_program", lambda: None)
+    monkeypatch.setattr(render, "ffmpeg_program", lambda: None)
     assert "install the Debian package ffmpeg" in (can_render() or "")
 
 
@@ -187,7 +191,7 @@ def test_place_that_cannot_be_written(clips, tmp_path):
 
 
 def test_failure_while_drawing_leaves_nothing_and_says_why(drawing, clips, tmp_path, monkeypatch):
-    monkeypatch.setattr(animation, "gl_environment", lambda backend: {**video.gl_environment(backend), "MUJOCO_GL": "nonsense"})
+    monkeypatch.setattr(render, "gl_environment", lambda backend: {**video.gl_environment(backend), "MUJOCO_GL": "nonsense"})
     with pytest.raises(SuspMjError, match=r"could not be rendered: .*nonsense"):
         render_video(clips, tmp_path / "bump.mp4")
     assert list(tmp_path.iterdir()) == []

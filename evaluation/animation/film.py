@@ -1,0 +1,48 @@
+"""The film: frames of runs, one by one, into a file; in the process that has OpenGL."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from susp_mj.run import Run
+
+from ..colours import COLOURS
+from ..video import Encoder
+from .clip import Clip
+from .hud import Hud
+from .quarter_scene import QuarterScene
+from .window import Window, window_of
+
+
+def frames(clips: Sequence[Clip], window: Window, size: tuple[int, int]) -> Iterator[np.ndarray]:
+    """(height, width, 3) frames one by one; needs a working OpenGL in this process."""
+    from PIL import Image
+
+    hud = Hud(clips, window, size)
+    scenes = [QuarterScene(clip.run, COLOURS[k], (hud.boxes[k].width, hud.boxes[k].height), window) for k, clip in enumerate(clips)]
+    try:
+        for time in window.times.tolist():
+            frame = hud.background.copy()
+            for scene, box in zip(scenes, hud.boxes, strict=True):
+                frame.paste(Image.fromarray(scene.picture(time)), (box.left, box.top))
+            hud.draw(frame, time)
+            yield np.asarray(frame)
+    finally:
+        for scene in scenes:
+            scene.close()
+
+
+def film(folder: Path) -> None:
+    """Read the order that `render` left in a folder, draw, encode, and print the fraction done."""
+    order = json.loads((folder / "order.json").read_text(encoding="utf-8"))
+    clips = [Clip(label, Run.load(folder / f"{number}.nc")) for number, label in enumerate(order["labels"])]
+    size = (int(order["size"][0]), int(order["size"][1]))
+    window = window_of([clip.run for clip in clips], order["fps"], order["playback"])
+    with Encoder(Path(order["path"]), size, order["fps"], {"title": " / ".join(order["labels"])}) as encoder:
+        for number, frame in enumerate(frames(clips, window, size), start=1):
+            encoder.write(frame.tobytes())
+            print(f"done {number / len(window.times):.4f}", flush=True)

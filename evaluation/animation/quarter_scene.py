@@ -1,0 +1,134 @@
+"""The quarter car: where its parts are in a run, and its picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from susp_mj.run import Run
+
+from .clip import at, speed_of
+from .quarter_shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
+from .window import Window
+
+HALF_ANGLE = 8.0
+VIEW = (2.02, 1.5)
+LOOK_AT = (0.0, 0.0, 0.5)
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where the parts of a quarter car are.
+
+    Attributes:
+        body, wheel: heights above the design position [m].
+        spin: turning angle of the wheel, positive forwards [rad].
+        travelled: distance driven [m].
+        road: height of the road under the wheel [m].
+        slope: of the road there, rising forwards positive.
+    """
+
+    body: float
+    wheel: float
+    spin: float
+    travelled: float
+    road: float
+    slope: float = 0.0
+
+    @property
+    def coil_length(self) -> float:
+        """Length of the drawn coil [m]: the seats move with body and wheel."""
+        return COIL_LENGTH + self.body - self.wheel
+
+
+def pose_at(run: Run, time: float) -> Pose:
+    """The quarter car of a run at a time [s]; a massless wheel stands on the road."""
+    wheel = "wheel_displacement" if "wheel_displacement" in run else "road_height"
+    speed = speed_of(run)
+    slope = (
+        (at(run, "road_height", time + run.step) - at(run, "road_height", time - run.step)) / (2 * run.step * speed) if speed > 0 else 0.0
+    )
+    return Pose(
+        body=at(run, "body_displacement", time),
+        wheel=at(run, wheel, time),
+        spin=speed * time / WHEEL_RADIUS,
+        travelled=speed * time,
+        road=at(run, "road_height", time),
+        slope=slope,
+    )
+
+
+class QuarterScene:
+    """Picture of one quarter car, driving over its road or standing on a test rig; one OpenGL context each.
+
+    Args:
+        run: what to show.
+        colour: of the bodywork, ``#rrggbb``.
+        size: (width, height) of the picture [px].
+        window: stretch of the run, for the length of the road.
+    """
+
+    def __init__(self, run: Run, colour: str, size: tuple[int, int], window: Window) -> None:
+        import mujoco
+
+        self.run = run
+        self.model = quarter_spec(run, colour, size, window).compile()
+        self.data = mujoco.MjData(self.model)
+        self.renderer = mujoco.Renderer(self.model, size[1], size[0])
+        self.renderer.scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = 1
+        self.camera = _camera(self.model, size)
+
+    def picture(self, time: float) -> np.ndarray:
+        """(height, width, 3) picture at a time of the run [s]."""
+        pose = pose_at(self.run, time)
+        place(self.model, self.data, pose)
+        self.renderer.update_scene(self.data, self.camera)
+        stretch_coil(self.model, self.data, self.renderer.scene, pose)
+        return self.renderer.render()
+
+    def close(self) -> None:
+        """Free the OpenGL context."""
+        self.renderer.close()
+
+
+def place(model: Any, data: Any, pose: Pose) -> None:
+    """Put every part of the picture in its place; lights and cameras too, or the scene goes dark."""
+    import mujoco
+
+    joints = {"body": pose.body, "wheel": pose.wheel, "spin": pose.spin, "road": -pose.travelled, "plate": pose.road}
+    for joint, value in {**joints, "slope": -float(np.arctan(pose.slope))}.items():
+        data.joint(joint).qpos[0] = value
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    mujoco.mj_camlight(model, data)
+
+
+def stretch_coil(model: Any, data: Any, scene: Any, pose: Pose) -> None:
+    """Scale the coil along z from its foot, in the updated scene only: a geom's matrix there need not be orthonormal."""
+    import mujoco
+
+    coil = model.geom("coil").id
+    mesh = model.geom_dataid[coil]
+    turned = np.zeros(9)
+    mujoco.mju_quat2Mat(turned, model.mesh_quat[mesh])
+    scale = np.diag([1.0, 1.0, pose.coil_length / COIL_LENGTH])
+    for drawn in scene.geoms[: scene.ngeom]:
+        if drawn.objtype == mujoco.mjtObj.mjOBJ_GEOM and drawn.objid == coil:
+            drawn.pos[:] = data.site("coil_foot").xpos + scale @ model.mesh_pos[mesh]
+            drawn.mat[:] = scale @ turned.reshape(3, 3)
+
+
+def _camera(model: Any, size: tuple[int, int]) -> Any:
+    """Camera at the car's right front, far enough away to see it whole."""
+    import mujoco
+
+    camera = mujoco.MjvCamera()
+    camera.type = mujoco.mjtCamera.mjCAMERA_FREE
+    camera.lookat[:] = LOOK_AT
+    camera.azimuth, camera.elevation = 101.0, -8.0
+    model.vis.global_.fovy = 2 * HALF_ANGLE
+    needed = max(VIEW[1], VIEW[0] * size[1] / size[0])
+    camera.distance = needed / 2 / np.tan(np.radians(HALF_ANGLE))
+    return camera

@@ -1,0 +1,33 @@
+"""What the header of a frame says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+_PARAMETERS = {
+    "height": ("{:+.0f} mm", 1000.0),
+    "length": ("{:.3g} m long", 1.0),
+    "amplitude": ("amplitude {:.3g} mm", 1000.0),
+    "rise_time": ("within {:.0f} ms", 1000.0),
+    "start_frequency": ("from {:.3g} Hz", 1.0),
+    "end_frequency": ("to {:.3g} Hz", 1.0),
+    "speed": ("at {:.3g} km/h", 3.6),
+}
+_TITLES = {"bump": "Bump", "step": "Road step", "vertical_sweep": "Vertical sine sweep"}
+
+
+def describe(manoeuvre: Mapping[str, Any]) -> str:
+    """One line that says what is done: ``Bump · +80 mm · 2 m long · at 50 km/h``."""
+    kind = str(manoeuvre.get("kind", "run"))
+    parts = [
+        text.format(manoeuvre[key] * factor) for key, (text, factor) in _PARAMETERS.items() if isinstance(manoeuvre.get(key), (int, float))
+    ]
+    return "  ·  ".join([_TITLES.get(kind, kind.replace("_", " ")), *parts]).replace("-", "−")
+
+
+def playback_text(playback: float) -> str:
+    """How fast the video runs, for the reader."""
+    if abs(playback - 1) < 1e-9:
+        return "real time"
+    return f"slow motion 1 : {1 / playback:.3g}" if playback < 1 else f"{playback:.3g} times real time"

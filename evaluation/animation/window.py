@@ -1,0 +1,71 @@
+"""Which stretch of the runs a video shows, and how slowly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from susp_mj.run import Run
+
+BEFORE, AFTER, AFTER_INPUT, LONGEST = 0.1, 1.3, 1.0, 4.0
+"""Stretch of a run that is shown [s]: before the road first moves, after that, at least after it rests, and altogether at most."""
+PLAYBACKS = (0.2, 0.25, 1 / 3, 0.5, 1.0)
+LONGEST_CLIP = 8.0
+"""Default playback is the slowest of these that keeps the clip below this length [s]."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """Stretch of the runs that is shown.
+
+    Attributes:
+        start, end: [s] of the runs.
+        playback: seconds of the run per second of video.
+        fps: frames per second.
+    """
+
+    start: float
+    end: float
+    playback: float
+    fps: int
+
+    @property
+    def frame_step(self) -> float:
+        """Time of the runs from frame to frame [s]."""
+        return self.playback / self.fps
+
+    @cached_property
+    def times(self) -> np.ndarray:
+        """(frames,) times of the runs [s]."""
+        return self.start + self.frame_step * np.arange(max(round((self.end - self.start) / self.frame_step), 1) + 1)
+
+
+def window_of(runs: Sequence[Run], fps: int, playback: float | None) -> Window:
+    """From just before the road first moves until the cars have calmed down; of a long excitation, where a wheel load varies most."""
+    moves = [_road_moves(run) for run in runs]
+    first, last = min(move[0] for move in moves), max(move[1] for move in moves)
+    end = max(first + AFTER, last + AFTER_INPUT)
+    if end - first > LONGEST:
+        peak = max((_largest_load(run) for run in runs), key=lambda each: each[0])[1]
+        first, end = peak - AFTER / 2, peak + AFTER / 2
+    begins, ends = min(float(run.time[0]) for run in runs), max(float(run.time[-1]) for run in runs)
+    start = max(first - BEFORE, begins)
+    end = min(max(end, start + BEFORE + AFTER), ends)
+    if playback is None:
+        playback = next((each for each in PLAYBACKS if (end - start) / each <= LONGEST_CLIP), PLAYBACKS[-1])
+    return Window(start, end, playback, fps)
+
+
+def _road_moves(run: Run) -> tuple[float, float]:
+    """When the road first and last moves [s]."""
+    moving = np.flatnonzero(np.abs(np.diff(run["road_height"])) > 1e-9)
+    return (float(run.time[moving[0]]), float(run.time[moving[-1] + 1])) if len(moving) else (BEFORE, BEFORE)
+
+
+def _largest_load(run: Run) -> tuple[float, float]:
+    """Largest departure of the wheel load from its initial value [N], and when [s]."""
+    departure = np.abs(run["wheel_load"] - run["wheel_load"][0])
+    return float(departure.max()), float(run.time[int(departure.argmax())])
