@@ -17,8 +17,9 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from .elements.law import ACTUATOR_MARK
+from .elements.law import ACTUATOR_MARK, USERDATA_HEADER
 from .errors import InputError, SimulationError
+from .names import channel_name
 
 META = "susp_mj"
 
@@ -48,7 +49,7 @@ class Output:
     Attributes:
         quantity, station: as in `Channel`.
         terms: (source, name, factor); the source is ``qpos``, ``qvel``, ``qacc`` (name: a joint), ``actuator_force``
-            (an actuator), ``input`` or ``input_rate`` (the station of an input of quantity road_height).
+            (an actuator), ``input`` or ``input_rate`` (the channel name of an input).
     """
 
     quantity: str
@@ -141,7 +142,9 @@ class Plant:
         if not Path(path).is_file():
             raise InputError("no such file", source=str(path))
         try:
-            model = mujoco.MjModel.from_xml_path(str(path))
+            spec = mujoco.MjSpec.from_file(str(path))
+            spec.nuserdata = max(spec.nuserdata, USERDATA_HEADER + len(spec.actuators))  # actuators may have been added by hand
+            model = spec.compile()
         except ValueError as error:
             reason = " ".join(str(error).split())
             raise InputError(f"is not a model that susp-mj built: {reason}", source=str(path)) from None
@@ -177,12 +180,12 @@ class Plant:
         Args:
             columns: (rows, n) by source name; ``input`` and ``input_rate`` have one column per input.
         """
-        roads = {place.station: i for i, place in enumerate(self.meaning.inputs) if place.quantity == "road_height"}
+        inputs = {channel_name(place.station, place.quantity): i for i, place in enumerate(self.meaning.inputs)}
         results = []
         for output in self.meaning.outputs:
             values = np.zeros(len(columns["qpos"]))
             for source, name, factor in output.terms:
-                column = roads[name] if source.startswith("input") else self.index(source, name)
+                column = inputs[name] if source.startswith("input") else self.index(source, name)
                 values += factor * columns[source][:, column]
             results.append((output, values))
         return results

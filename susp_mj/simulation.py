@@ -146,6 +146,7 @@ def _as_run(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, records: np.nd
         "manoeuvre": manoeuvre.model_dump(mode="json"),
         "travel": {t.station: [t.rebound, t.compression] for t in meaning.travels},
         "facts": dict(meaning.facts),
+        "places": {place.station: [place.x, place.y] for place in meaning.inputs if place.quantity == "road_height"},
         "step": step,
         "integrator": "RK4",
         "versions": {"susp_mj": version("susp_mj"), "mujoco": mujoco.__version__},

@@ -11,7 +11,7 @@ from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from susp_mj.description import Description, validate, wrong
-from susp_mj.elements import GRAVITY, AnyDamper, AnySpring, AnyTyre, LinkageFriction, Spring, Tyre
+from susp_mj.elements import GRAVITY, AntiRollBar, AnyDamper, AnySpring, AnyTyre, LinkageFriction, Spring, Tyre
 from susp_mj.errors import InputError, choices
 from susp_mj.units import Inertia, Length, Mass, PositiveLength
 
@@ -36,13 +36,21 @@ class Axle(Description):
 
     Attributes:
         track: lateral distance of the wheel centres [m].
+        spring_base: lateral distance of the springs of a rigid axle [m]; None puts them at the wheels.
+        roll_centre_height: of the axle above the ground [m]; None leaves lateral forces out.
         unsprung_mass: mass [kg] that moves with one wheel.
+        roll_inertia: of a rigid axle about its middle [kg m²]; None concentrates its mass in the wheels.
+        anti_roll_bar: or None.
         spring, damper, tyre: see `susp_mj.elements`.
         friction: linkage friction, or None.
     """
 
     track: PositiveLength | None = None
+    spring_base: PositiveLength | None = None
+    roll_centre_height: Length | None = None
     unsprung_mass: Mass | None = None
+    roll_inertia: Inertia | None = None
+    anti_roll_bar: AntiRollBar | None = None
     spring: AnySpring
     damper: AnyDamper
     friction: LinkageFriction | None = None
@@ -82,6 +90,8 @@ class Vehicle(Description):
         title: one line for reports.
         characteristics: name of the chosen set, empty if the file has none.
         wheelbase: [m], needed by models with two axles.
+        wheel_radius: height of the wheel centres above the ground in the design position [m].
+        driver: the driver's seat [m] from the reference point, as a load case's cg.
         front, rear: the axles; a quarter car may have one only.
         loads: load cases by name; ``ko`` is the design position.
         sources: dotted path -> 'measured: …', 'cited: …' or 'estimated: …', for every value of the file.
@@ -92,6 +102,8 @@ class Vehicle(Description):
     title: str
     characteristics: str = ""
     wheelbase: PositiveLength | None = None
+    wheel_radius: PositiveLength | None = None
+    driver: tuple[Length, Length, Length] | None = None
     front: Axle | None = None
     rear: Axle | None = None
     loads: dict[str, LoadCase] = Field(min_length=1)
@@ -141,6 +153,11 @@ class Vehicle(Description):
         if name not in self.loads:
             raise InputError(f"no load case '{name}'; {choices(self.loads, name)}", key="load", source=self.source)
         return self.loads[name]
+
+    def cg_height(self, load: str) -> float | None:
+        """Height of the sprung mass' centre of gravity above the ground [m]; None if the car does not tell."""
+        cg = self.load(load).cg
+        return None if cg is None or self.wheel_radius is None else self.wheel_radius + cg[2]
 
     def corner_mass(self, axle: str, load: str) -> float:
         """Sprung mass [kg] carried by one wheel of an axle: ``m l_other / (l_front + l_rear) / 2``.

@@ -1,7 +1,7 @@
 """The callbacks: every element's force and state at every integration stage, and the inputs before them.
 
-An actuator is ours if its first user parameter is `ACTUATOR_MARK`; its second is the number of its law, the law's own parameters
-follow. Deflection and speed are the transmission's length and velocity plus the input's share (`ctrl` and `userdata`).
+An actuator is ours if its first user parameter is `ACTUATOR_MARK`; the number of its law and its partner come next, then the
+law's own parameters. Deflection and speed are the transmission's length and velocity plus the input's share (`ctrl` and `userdata`).
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from typing import Any
 
 import mujoco
 from llvmlite import ir
-from numba import carray, cfunc, from_dtype, types  # pyright: ignore[reportPrivateImportUsage]
+from numba import carray, cfunc, from_dtype, njit, types  # pyright: ignore[reportPrivateImportUsage]
 
 from ..elements import LAWS
-from ..elements.law import ACTUATOR_MARK, LAW_TABLE_SIZE, USERDATA_HEADER
+from ..elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, LAW_TABLE_SIZE, USERDATA_HEADER
 from ..errors import CallbackError
 from .laws import compile_laws
 from .layout import LAYOUT
@@ -55,11 +55,20 @@ _force_of = _table_call("susp_mj_force_table")
 _state_rate_of = _table_call("susp_mj_state_table")
 
 
+@njit
+def _deflection(model, data, actuator):
+    """Deflection and speed of an actuator's element; `userdata` may be too short in a model edited by hand."""
+    v = doubles(data.actuator_velocity)[actuator]
+    if USERDATA_HEADER + actuator < model.nuserdata:
+        v += doubles(data.userdata)[USERDATA_HEADER + actuator]
+    return doubles(data.actuator_length)[actuator] + doubles(data.ctrl)[actuator], v
+
+
 @cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
 def _force(model_pointer, data_pointer, actuator):
     model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
     stride = model.nuser_actuator
-    if stride < 2:
+    if stride < ACTUATOR_HEADER:
         return 0.0
     user = model.actuator_user + types.uint64(8 * stride * actuator)
     own = doubles(user)
@@ -67,9 +76,12 @@ def _force(model_pointer, data_pointer, actuator):
         return 0.0
     state_address = ints(model.actuator_actadr)[actuator]
     state = doubles(data.act)[state_address] if state_address >= 0 else 0.0
-    x = doubles(data.actuator_length)[actuator] + doubles(data.ctrl)[actuator]
-    v = doubles(data.actuator_velocity)[actuator] + doubles(data.userdata)[USERDATA_HEADER + actuator]
-    return -_force_of(int(own[1]), x, v, state, doubles(user + types.uint64(16)))
+    x, v = _deflection(model, data, actuator)
+    partner = actuator + int(own[2])
+    if partner != actuator:
+        other_x, other_v = _deflection(model, data, partner)
+        x, v = x - other_x, v - other_v
+    return -_force_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
 
 
 @cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
@@ -77,16 +89,15 @@ def _state_rate(model_pointer, data_pointer, actuator):
     model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
     stride = model.nuser_actuator
     state_address = ints(model.actuator_actadr)[actuator]
-    if stride < 2 or state_address < 0:
+    if stride < ACTUATOR_HEADER or state_address < 0:
         return 0.0
     user = model.actuator_user + types.uint64(8 * stride * actuator)
     own = doubles(user)
     if own[0] != ACTUATOR_MARK or not 0.0 < own[1] < LAW_TABLE_SIZE:
         return 0.0
     state = doubles(data.act)[state_address]
-    x = doubles(data.actuator_length)[actuator] + doubles(data.ctrl)[actuator]
-    v = doubles(data.actuator_velocity)[actuator] + doubles(data.userdata)[USERDATA_HEADER + actuator]
-    return _state_rate_of(int(own[1]), x, v, state, doubles(user + types.uint64(16)))
+    x, v = _deflection(model, data, actuator)
+    return _state_rate_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
 
 
 @cfunc(types.void(MODEL, DATA), cache=True)
@@ -119,13 +130,15 @@ def _inputs(model_pointer, data_pointer):
     for entry in range(entries):
         actuator = int(block[5 + 3 * entry])
         ctrl[actuator] = 0.0
-        userdata[USERDATA_HEADER + actuator] = 0.0
+        if USERDATA_HEADER + actuator < model.nuserdata:
+            userdata[USERDATA_HEADER + actuator] = 0.0
     for entry in range(entries):
         column, actuator, factor = 2 * int(block[4 + 3 * entry]), int(block[5 + 3 * entry]), block[6 + 3 * entry]
         value = block[here + column] + offset * (block[there + column] - block[here + column])
         rate = block[here + column + 1] + offset * (block[there + column + 1] - block[here + column + 1])
         ctrl[actuator] += factor * value
-        userdata[USERDATA_HEADER + actuator] += factor * rate
+        if USERDATA_HEADER + actuator < model.nuserdata:
+            userdata[USERDATA_HEADER + actuator] += factor * rate
 
 
 _SLOTS = {

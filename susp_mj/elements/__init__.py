@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..errors import CallbackError
+from .bars import AntiRollBar, Overturning, Rig
 from .dampers import DAMPERS, DIRECT_DAMPER, MOUNTED_DAMPER, AnyDamper, Damper, TableDamper, ZonedDamper
 from .element import Element
 from .friction import LinkageFriction
@@ -32,6 +33,9 @@ LAWS: dict[int, Law] = {
         MOUNTED_DAMPER,
         LinkageFriction.law,
         TyreSpring.law,
+        AntiRollBar.law,
+        Overturning.law,
+        Rig.law,
     )
 }
 _KINDS: tuple[tuple[type[Element], dict[str, type]], ...] = ((Spring, SPRINGS), (Damper, DAMPERS), (Tyre, TYRES))
@@ -70,6 +74,7 @@ __all__ = [
     "LAWS",
     "SPRINGS",
     "TYRES",
+    "AntiRollBar",
     "AnyDamper",
     "AnySpring",
     "AnyTyre",
@@ -79,7 +84,9 @@ __all__ = [
     "Law",
     "LinearSpring",
     "LinkageFriction",
+    "Overturning",
     "ProgressiveSpring",
+    "Rig",
     "Spring",
     "Stops",
     "TableDamper",

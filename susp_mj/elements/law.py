@@ -14,7 +14,12 @@ ScalarLaw = Callable[[float, float, float, Parameters], float]
 
 LAW_TABLE_SIZE = 4096
 ACTUATOR_MARK = 20070612.0
-"""First user parameter of every actuator that is ours; the law's number and parameters follow, others are left alone."""
+"""First user parameter of every actuator that is ours; others are left alone."""
+ACTUATOR_HEADER = 3
+"""User parameters before the law's own: the mark, the law's number, and how many actuators on its partner is (0: none).
+
+With a partner the law sees the difference of both deflections, as an anti-roll bar does.
+"""
 USERDATA_HEADER = 2
 """Doubles of mjData's `userdata` before the deflection speeds: the mark of a running input, the address of its block."""
 

@@ -1,58 +1,61 @@
-"""Parts that every model is built from: force elements, corners, and the record of what their numbers mean.
+"""Parts that every model is built from: linear forms, force elements along them, and the record of what they mean.
 
-Joint coordinates are 0 in the design position. A body's vertical position at a place is a weighted sum of its joints
-(`Heights`); a sprung wheel is a child of the body whose joint ``travel`` is the suspension deflection, a massless wheel
-follows the road. The forces of a corner are user actuators named after it (``spring``, ``stop``, ``damper``,
-``friction``, ``tyre``), with the station as prefix where there is more than one: ``fl_spring``.
+Joint coordinates are 0 in the design position, so every deflection and height is a weighted sum of joint coordinates and
+road heights: a `Form`. An element acts along a form as a user actuator, on the joint if the form is one joint, else on a
+fixed tendon; the road's share reaches it as an input. Parts are named after their corner: ``fl_spring``.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import mujoco
 
-from susp_mj.elements import GRAVITY, Damper, Element, Tyre
-from susp_mj.elements.law import ACTUATOR_MARK, USERDATA_HEADER
-from susp_mj.errors import InputError
+from susp_mj.elements import GRAVITY, Damper, Element
+from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
 from susp_mj.names import channel_name
 from susp_mj.plant import Input, Meaning, Output, TimeConstant, Travel
 from susp_mj.simulation import STEP
 
 from ..vehicle import Axle
 
-Heights = dict[str, float]
-"""Joint -> weight: the vertical position of a place as a weighted sum of joint coordinates."""
-
-POINT_MASS: dict[str, Any] = {"ipos": [0, 0, 0], "iquat": [1, 0, 0, 0], "inertia": [1, 1, 1], "explicitinertial": True}
-"""A body that only translates: its moments of inertia are never used."""
-_WHEEL_RADIUS = 0.33
+POINT_MASS: dict[str, Any] = {"ipos": [0, 0, 0], "iquat": [1, 0, 0, 0], "inertia": [1e-6, 1e-6, 1e-6], "explicitinertial": True}
+"""A body that only translates within the model: its own moments of inertia play no part."""
 _NO_LIMIT = 1e12
+Term = tuple[str, str, float]
 
 
 @dataclass(frozen=True)
-class Corner:
-    """One wheel with its suspension.
+class Form:
+    """A length as a weighted sum of joint coordinates and road heights.
 
     Attributes:
-        station: prefix of its names, empty for the only wheel.
-        axle_name: ``front`` or ``rear``.
-        x, y: place of the wheel [m], x from the front axle.
-        axle: the vehicle's values for it.
-        heights: vertical position of the body above the wheel.
+        joints: joint -> weight.
+        roads: station -> weight of the road height there.
     """
 
-    station: str
-    axle_name: str
-    x: float
-    y: float
-    axle: Axle
-    heights: Heights
+    joints: dict[str, float]
+    roads: dict[str, float] = field(default_factory=dict)
 
-    def name(self, part: str) -> str:
-        """Name of one of the corner's parts."""
-        return channel_name(self.station, part)
+    def __add__(self, other: Form) -> Form:
+        return Form(_sum(self.joints, other.joints), _sum(self.roads, other.roads))
+
+    def __mul__(self, factor: float) -> Form:
+        return Form({k: factor * v for k, v in self.joints.items()}, {k: factor * v for k, v in self.roads.items()})
+
+    def __sub__(self, other: Form) -> Form:
+        return self + other * -1.0
+
+    def terms(self, joint_source: str, road_source: str) -> list[Term]:
+        """The form as terms of an output: positions, or rates."""
+        joints = [(joint_source, joint, weight) for joint, weight in self.joints.items()]
+        return [*joints, *((road_source, channel_name(station, "road_height"), weight) for station, weight in self.roads.items())]
+
+
+def _sum(a: dict[str, float], b: dict[str, float]) -> dict[str, float]:
+    total = {key: a.get(key, 0.0) + b.get(key, 0.0) for key in (*a, *b)}
+    return {key: weight for key, weight in total.items() if weight != 0.0}
 
 
 class ModelBuilder:
@@ -65,117 +68,127 @@ class ModelBuilder:
         option = self.spec.option
         option.timestep, option.integrator, option.gravity = STEP, mujoco.mjtIntegrator.mjINT_RK4, [0, 0, -GRAVITY]
         option.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-        self.inputs: list[Input] = []
+        self.places: dict[str, tuple[float, float]] = {}
         self.outputs: list[Output] = []
         self.travels: list[Travel] = []
         self.time_constants: list[TimeConstant] = []
-        self._parameters: list[tuple[float, ...]] = []
+        self._actuators: list[Any] = []
+        self._targets: dict[tuple[tuple[str, float], ...], str] = {}
+        self._entries: dict[tuple[str, str], list[tuple[str, float]]] = {}
 
-    def slide(self, body: Any, name: str) -> None:
-        """Give a body a vertical freedom."""
-        body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
+    def joint(self, body: Any, name: str, kind: str, axis: list[float]) -> Form:
+        """Give a body a freedom, ``slide`` or ``hinge``; returns it as a form."""
+        joint = mujoco.mjtJoint.mjJNT_SLIDE if kind == "slide" else mujoco.mjtJoint.mjJNT_HINGE
+        body.add_joint(name=name, type=joint, axis=axis)
+        return Form({name: 1.0})
 
-    def draw(self, body: Any, shape: mujoco.mjtGeom, size: list[float], colour: list[float], **place: Any) -> None:
+    def draw(self, body: Any, shape: Any, size: list[float], colour: list[float], **place: Any) -> None:
         """A massless, contactless shape, so that the file shows a car in any MuJoCo viewer."""
         body.add_geom(type=shape, size=size, rgba=colour, mass=0.0, contype=0, conaffinity=0, **place)
 
-    def tendon(self, name: str, heights: Heights) -> Any:
-        """A fixed tendon as long as the weighted sum of joints."""
-        tendon = self.spec.add_tendon(name=name)
-        for joint, weight in heights.items():
-            tendon.wrap_joint(joint, weight)
-        return tendon
+    def wheel_station(self, station: str, x: float, y: float) -> Form:
+        """Declare a wheel at a place [m], x from the front axle; returns the road height under it."""
+        self.places[station] = (x, y)
+        self._entries.setdefault(("road_height", station), [])
+        return Form({}, {station: 1.0})
 
-    def force(self, name: str, element: Element, *, joint: str = "", tendon: str = "") -> None:
-        """Let an element act along a joint or a tendon, as a user actuator with its law and parameters."""
-        law, parameters = element.active_law, element.parameters()
-        actuator = self.spec.add_actuator(
-            name=name,
-            target=joint or tendon,
-            trntype=mujoco.mjtTrn.mjTRN_JOINT if joint else mujoco.mjtTrn.mjTRN_TENDON,
-            biastype=mujoco.mjtBias.mjBIAS_USER,
-        )
-        actuator.gainprm[0] = 0.0
+    def force(self, name: str, element: Element, form: Form, partner: str | None = None) -> None:
+        """Let an element act along a form, positive force lengthening nothing: it opposes the form's growth.
+
+        Args:
+            partner: actuator whose deflection is subtracted; it may be added later.
+        """
+        law = element.active_law
+        actuator = self._actuator(name, form)
+        actuator.biastype, actuator.gainprm[0] = mujoco.mjtBias.mjBIAS_USER, 0.0
         if law.state_rate is not None:
             actuator.dyntype, actuator.actdim = mujoco.mjtDyn.mjDYN_USER, 1
-        actuator.userdata = [ACTUATOR_MARK, float(law.number), *parameters]
-        self._parameters.append(parameters)
+        self._actuators[-1] = (name, actuator, (float(law.number), *element.parameters()), partner)
+        for station, weight in form.roads.items():
+            self._entries[("road_height", station)].append((name, weight))
 
-    def output(self, quantity: str, station: str, *terms: tuple[str, str, float]) -> None:
+    def motor(self, name: str, form: Form, quantity: str, factor: float) -> None:
+        """Let an input act as a force along a form: ``factor`` times its value, positive with the form's growth."""
+        actuator = self._actuator(name, form)
+        actuator.gainprm[0] = 1.0
+        self.drive(quantity, name, factor)
+
+    def drive(self, quantity: str, actuator: str, factor: float) -> None:
+        """Add an input's share to an actuator's deflection, or to a motor's force."""
+        self._entries.setdefault((quantity, ""), []).append((actuator, factor))
+
+    def motor_on(self, name: str, other: str, quantity: str, factor: float) -> None:
+        """A motor along the same form as another actuator."""
+        target = next(actuator for each, actuator, *_ in self._actuators if each == other)
+        actuator = self.spec.add_actuator(name=name, target=target.target, trntype=target.trntype)
+        actuator.gainprm[0] = 1.0
+        self._actuators.append((name, actuator, None, None))
+        self.drive(quantity, name, factor)
+
+    def _actuator(self, name: str, form: Form) -> Any:
+        joint = next(iter(form.joints)) if list(form.joints.values()) == [1.0] else None
+        kind = mujoco.mjtTrn.mjTRN_TENDON if joint is None else mujoco.mjtTrn.mjTRN_JOINT
+        actuator = self.spec.add_actuator(name=name, target=joint or self._tendon(name, form), trntype=kind)
+        self._actuators.append((name, actuator, None, None))
+        return actuator
+
+    def _tendon(self, name: str, form: Form) -> str:
+        """Name of the fixed tendon as long as the form's joint part; elements along one form share it."""
+        key = tuple(sorted(form.joints.items()))
+        if key not in self._targets:
+            self._targets[key] = f"{name}_length"
+            tendon = self.spec.add_tendon(name=self._targets[key])
+            for joint, weight in form.joints.items():
+                tendon.wrap_joint(joint, weight)
+        return self._targets[key]
+
+    def push_only(self, form: Form) -> None:
+        """The elements along this form cannot pull in sum: a wheel that follows the road may leave it."""
+        tendon = self.spec.tendon(self._targets[tuple(sorted(form.joints.items()))])
+        tendon.actfrclimited, tendon.actfrcrange = mujoco.mjtLimited.mjLIMITED_TRUE, [-_NO_LIMIT, 0.0]
+
+    def output(self, quantity: str, station: str, *terms: Term) -> None:
         """Declare a channel."""
         self.outputs.append(Output(quantity, station, terms))
 
-    def suspension(self, corner: Corner, *, joint: str = "", tendon: str = "") -> list[str]:
-        """Spring, stops, damper and linkage friction of a corner; returns the names of their actuators."""
-        axle = corner.axle
-        elements: dict[str, Element] = {"spring": axle.spring, "stop": axle.spring.stops, "damper": axle.damper}
-        if axle.friction is not None:
-            elements["friction"] = axle.friction
-        for part, element in elements.items():
-            self.force(corner.name(part), element, joint=joint, tendon=tendon)
-            self.output(f"{part}_force", corner.station, ("actuator_force", corner.name(part), -1.0))
+    def add_terms(self, quantity: str, station: str, *terms: Term) -> None:
+        """Extend a declared channel."""
+        for i, output in enumerate(self.outputs):
+            if (output.quantity, output.station) == (quantity, station):
+                self.outputs[i] = Output(quantity, station, (*output.terms, *terms))
+
+    def travel(self, station: str, axle: Axle, axle_name: str) -> None:
+        """Declare the travel of a station's suspension and the time constant of its damper."""
         stops = axle.spring.stops
-        self.travels.append(Travel(corner.station, stops.rebound, stops.compression, corner.axle_name))
-        self._note_time_constant(axle.damper, corner.axle_name)
-        return [corner.name(part) for part in elements]
+        self.travels.append(Travel(station, stops.rebound, stops.compression, axle_name))
+        self._note_time_constant(axle.damper, axle_name)
 
     def _note_time_constant(self, damper: Damper, axle_name: str) -> None:
+        """Remember the damper's time constant, which limits the step."""
         seconds = damper.time_constant()
         if seconds is not None and damper.mount is not None:
             constant = TimeConstant(seconds, damper.mount.rate, "N/m", f"{axle_name}.damper.mount.rate")
             if constant not in self.time_constants:
                 self.time_constants.append(constant)
 
-    def rigid_wheel(self, corner: Corner) -> None:
-        """A massless wheel that follows the road: deflection = road - body. The road cannot pull, so the total >= 0."""
-        length = self.tendon(corner.name("travel"), {joint: -weight for joint, weight in corner.heights.items()})
-        length.actfrclimited, length.actfrcrange = mujoco.mjtLimited.mjLIMITED_TRUE, [-_NO_LIMIT, 0.0]
-        actuators = self.suspension(corner, tendon=corner.name("travel"))
-        self.inputs.append(Input("road_height", corner.station, corner.x, corner.y, tuple((name, 1.0) for name in actuators)))
-        body = tuple(corner.heights.items())
-        self.output(
-            "suspension_deflection", corner.station, ("input", corner.station, 1.0), *(("qpos", joint, -weight) for joint, weight in body)
-        )
-        self.output(
-            "suspension_speed", corner.station, ("input_rate", corner.station, 1.0), *(("qvel", joint, -weight) for joint, weight in body)
-        )
-        self.output("wheel_load", corner.station, *(("actuator_force", name, -1.0) for name in actuators))
-
-    def sprung_wheel(self, body: Any, corner: Corner, place: list[float]) -> None:
-        """A wheel with mass, child of the body on joint ``travel``, on a tyre that cannot pull.
-
-        Raises:
-            InputError: the axle gives no unsprung mass or no tyre.
-        """
-        travel = corner.name("travel")
-        wheel = body.add_body(name=corner.name("wheel"), pos=place, mass=self._required(corner, "unsprung_mass"), **POINT_MASS)
-        self.slide(wheel, travel)
-        self.draw(wheel, mujoco.mjtGeom.mjGEOM_CYLINDER, [_WHEEL_RADIUS, 0.11, 0], [0.1, 0.1, 0.1, 1], euler=[1.5707963267948966, 0, 0])
-        self.suspension(corner, joint=travel)
-        tyre: Tyre = self._required(corner, "tyre")
-        height = {**corner.heights, travel: 1.0}
-        self.tendon(corner.name("tyre_deflection"), {joint: -weight for joint, weight in height.items()})
-        self.force(corner.name("tyre"), tyre, tendon=corner.name("tyre_deflection"))
-        self.inputs.append(Input("road_height", corner.station, corner.x, corner.y, ((corner.name("tyre"), 1.0),)))
-        self.output("suspension_deflection", corner.station, ("qpos", travel, 1.0))
-        self.output("suspension_speed", corner.station, ("qvel", travel, 1.0))
-        self.output("wheel_displacement", corner.station, *(("qpos", joint, weight) for joint, weight in height.items()))
-        self.output("wheel_acceleration", corner.station, *(("qacc", joint, weight) for joint, weight in height.items()))
-        self.output("wheel_load", corner.station, ("actuator_force", corner.name("tyre"), -1.0))
-
-    def _required(self, corner: Corner, key: str) -> Any:
-        value = getattr(corner.axle, key)
-        if value is None:
-            raise InputError("is required by models with sprung wheels", key=f"{corner.axle_name}.{key}", source=self.source)
-        return value
-
     def finish(self, **meaning: Any) -> tuple[mujoco.MjSpec, Meaning]:
-        """Size the user arrays and state what the numbers mean."""
-        self.spec.nuser_actuator = 2 + max(len(parameters) for parameters in self._parameters)
-        self.spec.nuserdata = USERDATA_HEADER + len(self._parameters)
+        """Write the user parameters and state what the numbers mean."""
+        order = [name for name, *_ in self._actuators]
+        longest = 0
+        for index, (_, actuator, parameters, partner) in enumerate(self._actuators):
+            if parameters is not None:
+                number, *own = parameters
+                actuator.userdata = [ACTUATOR_MARK, number, 0.0 if partner is None else float(order.index(partner) - index), *own]
+                longest = max(longest, len(own))
+        self.spec.nuser_actuator = ACTUATOR_HEADER + longest
+        self.spec.nuserdata = USERDATA_HEADER + len(order)
+        inputs = [
+            Input(quantity, station, *self.places.get(station, (0.0, 0.0)), tuple(entries))
+            for (quantity, station), entries in self._entries.items()
+        ]
         return self.spec, Meaning(
             source=self.source,
-            inputs=tuple(self.inputs),
+            inputs=tuple(inputs),
             outputs=tuple(self.outputs),
             travels=tuple(self.travels),
             time_constants=tuple(self.time_constants),
