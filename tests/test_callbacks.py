@@ -38,7 +38,7 @@ def plant():
     return build(load_vehicle("chapter3", "nonlinear"), "quarter_2dof")
 
 
-def foreign_model(user: int = 4, userdata: int = 6):
+def foreign_model(user: int = 6, userdata: int = 6):
     """User actuators with parameters and user data that mean something to somebody else."""
     spec = mujoco.MjSpec()
     spec.nuserdata, spec.nuser_actuator = userdata, user
@@ -54,7 +54,7 @@ def foreign_model(user: int = 4, userdata: int = 6):
         actdim=1,
         gainprm=[0.0] * 10,
     )
-    actuator.userdata = [7.0, 1.0, 2.0, 3.0][:user]
+    actuator.userdata = [7.0, float(LinearSpring.law.number), -1.0, 1.0, 50.0, 10.0][:user]
     return spec.compile()
 
 
@@ -103,7 +103,7 @@ def test_a_foreign_callback_is_not_replaced(no_callbacks, slot):
 # ---- models that are not ours
 
 
-@pytest.mark.parametrize("user", [0, 1, 2, 4])
+@pytest.mark.parametrize("user", [0, 1, 2, 6])
 @pytest.mark.parametrize("userdata", [0, 1, 2, 6])
 def test_foreign_user_actuators_are_left_alone(no_callbacks, user, userdata):
     model = foreign_model(user, userdata)
