@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
+import subprocess
 import sys
 
 import mujoco
@@ -177,7 +178,7 @@ def test_motors_added_first_do_not_move_the_callbacks_out_of_their_memory(tmp_pa
 
 def model_with_law(number):
     spec = mujoco.MjSpec()
-    spec.nuserdata, spec.nuser_actuator = 3, 5
+    spec.nuserdata, spec.nuser_actuator = 3, 6
     body = spec.worldbody.add_body(mass=1.0, inertia=[1, 1, 1], explicitinertial=True)
     body.add_joint(name="j", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
     actuator = spec.add_actuator(
@@ -188,7 +189,7 @@ def model_with_law(number):
         dyntype=mujoco.mjtDyn.mjDYN_USER,
         actdim=1,
     )
-    actuator.userdata = [ACTUATOR_MARK, float(number), 1.0, 2.0, 3.0]
+    actuator.userdata = [ACTUATOR_MARK, float(number), 0.0, 1.0, 2.0, 3.0]
     return spec.compile()
 
 
@@ -330,6 +331,29 @@ def test_a_helper_of_another_module_is_refused(user_modules):
     with pytest.raises(CallbackError, match="own module"):
         register(element)
     assert before == LAWS
+
+
+COMPILE = """\
+import importlib.util, sys
+from susp_mj.compiled import compile_laws
+from susp_mj.elements import LAWS, Law
+spec = importlib.util.spec_from_file_location(sys.argv[1], sys.argv[2])
+module = importlib.util.module_from_spec(spec)
+sys.modules[spec.name] = module
+spec.loader.exec_module(module)
+law = Law("user_law_of_two_names", module.force)
+LAWS[law.number] = law
+compile_laws([law.number])
+"""
+
+
+def test_a_users_file_may_be_loaded_under_another_name(tmp_path):
+    """As a script it is ``__main__``, imported it has its own name: what one left on the disk may not break the other."""
+    (tmp_path / "mine.py").write_text(NEAR_LAW)
+    for name in ("under_one_name", "under_another_name"):
+        call = [sys.executable, "-c", COMPILE, name, tmp_path / "mine.py"]
+        result = subprocess.run(call, capture_output=True, text=True, timeout=120, check=False)
+        assert result.returncode == 0, result.stderr
 
 
 def test_a_law_that_numba_cannot_compile_is_named():

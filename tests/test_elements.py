@@ -13,7 +13,22 @@ from scipy.interpolate import PchipInterpolator
 
 from susp_mj.compiled import laws as compiled_laws
 from susp_mj.description import validate
-from susp_mj.elements import DAMPERS, LAWS, SPRINGS, TYRES, Damper, LinkageFriction, Spring, Stops, TableDamper, TableSpring, ZonedDamper
+from susp_mj.elements import (
+    DAMPERS,
+    LAWS,
+    SPRINGS,
+    TYRES,
+    AntiRollBar,
+    Damper,
+    LinkageFriction,
+    Overturning,
+    Rig,
+    Spring,
+    Stops,
+    TableDamper,
+    TableSpring,
+    ZonedDamper,
+)
 from susp_mj.elements.dampers import DIRECT_DAMPER, MOUNTED_DAMPER
 from susp_mj.errors import InputError
 
@@ -39,7 +54,13 @@ DAMPER_FIELDS = {
 }
 TYRE_FIELDS = {"spring": {"rate": 176e3, "static_load": 5000.0}}
 # Laws of elements that belong to no registry of kinds, and parameters as an element hands them over.
-EXTRA = [Stops(**STOPS), LinkageFriction(force=150.0)]
+EXTRA = [
+    Stops(**STOPS),
+    LinkageFriction(force=150.0),
+    AntiRollBar(rate=25286.0),
+    Overturning(moment=10245.0),
+    Rig(stiffness=1e7, damping=2e4),
+]
 
 
 def spring_of(kind):
@@ -377,6 +398,35 @@ def test_tyre_carries_its_static_load(kind):
     assert float(tyre.at_static_load(4321.0).evaluate(0.0)) == 4321.0
 
 
+# ---- roll
+
+
+@given(left=deflections, right=deflections)
+def test_anti_roll_bar(left, right):
+    """Equal and opposite on both wheels, nothing in heave, and a roll moment of ``c t²/2`` per radian."""
+    rate, track = 25286.0, 1.4
+    bar = AntiRollBar(rate=rate)
+    on_left, on_right = float(bar.evaluate(left - right)), float(bar.evaluate(right - left))
+    assert on_left == -on_right
+    assert on_left == pytest.approx(rate * (left - right) / 2, rel=1e-14)
+    roll = (left - right) / track
+    assert (on_left - on_right) * track / 2 == pytest.approx(rate * track**2 / 2 * roll, rel=1e-12, abs=1e-9)
+    assert float(bar.evaluate(0.0, 3.0, 2.0)) == 0.0
+
+
+@given(roll=st.floats(-0.2, 0.2))
+def test_gravity_pulls_a_rolling_body_further(roll):
+    moment = float(Overturning(moment=10245.0).evaluate(roll, 5.0))
+    assert moment == pytest.approx(-10245.0 * roll, rel=1e-14)
+    assert moment * roll <= 0.0
+
+
+@given(deviation=st.floats(-0.1, 0.1), rate=speeds)
+def test_rig_restores(deviation, rate):
+    force = float(Rig(stiffness=1e7, damping=2e4).evaluate(deviation, rate))
+    assert force == pytest.approx(1e7 * deviation + 2e4 * rate, rel=1e-12, abs=1e-6)
+
+
 # ---- compiled laws
 
 
@@ -388,6 +438,10 @@ def samples():
     for element in elements:
         found.setdefault(element.active_law.number, []).append(element.parameters())
     return found
+
+
+def test_every_registered_law_is_compared():
+    assert set(samples()) == set(LAWS)
 
 
 LAW_NUMBERS = [pytest.param(number, id=law.name) for number, law in LAWS.items()]

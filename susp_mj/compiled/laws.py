@@ -6,9 +6,7 @@ The table is reached through a linker symbol, so that code from the disk cache f
 from __future__ import annotations
 
 import functools
-import inspect
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -46,11 +44,15 @@ def compile_laws(numbers: Iterable[int]) -> None:
 
 @functools.cache
 def _compiled(law: Law, function: ScalarLaw) -> Any:
-    """The compiled function; the cache keeps it alive as long as its address is in use."""
+    """The compiled function; the cache keeps it alive as long as its address is in use.
+
+    Only the package's own laws are kept on disk: code there is bound to the module's name, and a user's file has another
+    name as a script than imported.
+    """
     for helper in helpers(function).values():
         register_jitable(helper)
     try:
-        compiled = cfunc(LAW_SIGNATURE, cache=Path(inspect.getsourcefile(function) or "").is_file())(function)
+        compiled = cfunc(LAW_SIGNATURE, cache=function.__module__.startswith("susp_mj."))(function)
     except Exception as error:
         reason = str(error).strip().splitlines()[0]
         raise CallbackError(f"law '{law.name}' does not compile ({reason}); use math and plain arithmetic only") from error
