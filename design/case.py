@@ -143,7 +143,7 @@ def run_case(case: Case, path: Path, progress: Report = lambda task, done: None)
         SimulationError: a run diverged or has no equilibrium.
     """
     manoeuvre = read_manoeuvre(case.manoeuvre, path.name)
-    prepared = [_prepare(case, setting, path, i) for i, setting in enumerate(case.configuration)]
+    prepared = [_prepare(case, manoeuvre, setting, path, i) for i, setting in enumerate(case.configuration)]
     names = tuple(dict.fromkeys((*case.numbers, *case.criteria))) if case.numbers else tuple(NUMBERS)
     configurations = []
     for i, (setting, (vehicle, plant)) in enumerate(zip(case.configuration, prepared, strict=True)):
@@ -164,12 +164,12 @@ def run_case(case: Case, path: Path, progress: Report = lambda task, done: None)
     return Comparison(case.title, case.description, configurations, _criteria(case, configurations, path.name))
 
 
-def _prepare(case: Case, setting: Setting, path: Path, index: int) -> tuple[Vehicle, Plant]:
+def _prepare(case: Case, manoeuvre: Manoeuvre, setting: Setting, path: Path, index: int) -> tuple[Vehicle, Plant]:
     """Vehicle and plant of one configuration, errors naming its place in the case file."""
     name = setting.vehicle
     try:
         vehicle = load_vehicle(path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set)
-        return vehicle, build(vehicle, case.model, setting.load, setting.axle)
+        return vehicle, build(vehicle, case.model, setting.load, setting.axle, manoeuvre.rig)
     except InputError as error:
         if error.source:
             raise

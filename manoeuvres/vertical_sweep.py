@@ -10,7 +10,7 @@ from pydantic import model_validator
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.plant import Input
-from susp_mj.units import Frequency, PositiveLength, PositiveTime
+from susp_mj.units import Frequency, PositiveLength, PositiveSpeed, PositiveTime
 
 
 class VerticalSweep(Manoeuvre):
@@ -24,6 +24,8 @@ class VerticalSweep(Manoeuvre):
         amplitude: of the road height at the start frequency [m].
         start_frequency, end_frequency: f0 and f1 [Hz].
         constant_speed: whether the amplitude falls with frequency.
+        mode: ``in_phase``; ``anti_phase`` (right wheels opposite to left); ``pitch`` (rear wheels opposite to front).
+        speed: if given, the rear wheels follow the front ones later by wheelbase/speed [m/s].
 
     Source: thesis, table 7.1; the exponential sweep after A. Farina, AES Convention 108 (2000), 5093.
     """
@@ -36,6 +38,8 @@ class VerticalSweep(Manoeuvre):
     start_frequency: Frequency = 0.3
     end_frequency: Frequency = 20.0
     constant_speed: bool = True
+    mode: Literal["in_phase", "anti_phase", "pitch"] = "in_phase"
+    speed: PositiveSpeed | None = None
 
     @model_validator(mode="after")
     def _rising(self) -> VerticalSweep:
@@ -48,6 +52,14 @@ class VerticalSweep(Manoeuvre):
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
         if place.quantity != "road_height":
             return None
+        opposite = (self.mode == "anti_phase" and place.y < 0) or (self.mode == "pitch" and place.x < 0)
+        delay = 0.0 if self.speed is None else -place.x / self.speed
+        height, rate = self._sine(np.maximum(time - delay, 0.0))
+        sign = -1.0 if opposite else 1.0
+        return sign * height, np.where(time >= delay, sign * rate, 0.0)
+
+    def _sine(self, time: np.ndarray) -> ValueAndRate:
+        """Height and rate of the sweep under the first wheel."""
         phase, frequency = self._phase(time), self._frequency(time)
         growth = np.log(self.end_frequency / self.start_frequency) / self.duration
         amplitude = self.amplitude * (self.start_frequency / frequency if self.constant_speed else np.ones_like(time))

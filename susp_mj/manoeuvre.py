@@ -30,6 +30,9 @@ class Manoeuvre(Description, ABC):
     needs: ClassVar[tuple[str, ...]] = ()
     """Quantities of inputs that the plant must offer."""
 
+    rig: ClassVar[str | None] = None
+    """Rig that the plant must be built on, if any."""
+
     kind: str
     duration: PositiveTime
 

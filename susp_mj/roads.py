@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 HeightAndSlope = tuple[np.ndarray, np.ndarray]
@@ -26,3 +28,69 @@ def cosine_ramp(progress: np.ndarray, height: float) -> HeightAndSlope:
     """Half a cosine from 0 at progress 0 to `height` at progress 1, constant outside; slope per unit of progress."""
     angle = np.pi * np.clip(progress, 0.0, 1.0)
     return height / 2 * (1 - np.cos(angle)), np.pi * height / 2 * np.sin(angle)
+
+
+ROAD_CLASSES: dict[str, float] = {letter: 16e-6 * 4**i for i, letter in enumerate("ABCDEFGH")}
+"""ISO 8608 class -> geometric mean of the roughness Gd(n0) [m³] at n0 = 0.1 cycles/m."""
+_COHERENCE: dict[str, tuple[float, float]] = {"A": (8.5, 3.5), "B": (5.3, 2.2), "C": (3.0, 1.3), "D": (1.6, 0.8), "E": (0.8, 0.5)}
+_REFERENCE = 0.1  # cycles/m
+_SPACING = 0.02  # m; the cubic spline through the samples follows a wavelength of 0.1 m within 0.3 % of its amplitude
+
+
+class RandomTracks:
+    """Tracks of a random road: ``Gd(n) = Gd(n0) (n/n0)^-2`` between two wavelengths, random phases.
+
+    A track at lateral position y is ``common sqrt(c) + own sqrt(1 - c)``, so that the cross spectrum of left and right is c
+    times their own: near 1 for waves much longer than their distance b = 2 |y|, near 0 for much shorter ones. c² is the
+    coherence ``(1 + (Omega b / Omega_p)²)^-p``, Omega = 2 pi n; classes F to H use the values of E.
+
+    Args:
+        road_class: ISO 8608 class, A to H.
+        length: of the road [m].
+        longest, shortest: wavelengths [m].
+        lead_in: the road fades in over this distance [m].
+        seed: of the random numbers.
+
+    Source: ISO 8608:2016; the coherence's form and values after D. Ammon, Veh. Syst. Dyn. 20 (1992), as Project Chrono has
+    them for its random terrain; that they are a squared coherence is our reading.
+    """
+
+    def __init__(self, road_class: str, length: float, longest: float, shortest: float, lead_in: float, seed: int) -> None:
+        count = int(2 ** np.ceil(np.log2(length / _SPACING)))
+        self._period = count * _SPACING
+        number = np.fft.rfftfreq(count, _SPACING)
+        inside = (number >= 1 / longest) & (number <= 1 / shortest)
+        density = np.zeros_like(number)
+        density[inside] = ROAD_CLASSES[road_class] * (number[inside] / _REFERENCE) ** -2.0
+        amplitude = np.sqrt(2 * density / self._period) * count / 2
+        phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, (3, len(number)))
+        self._number, self._waves = number, amplitude * np.exp(1j * phases)
+        self._coherence = _COHERENCE.get(road_class, _COHERENCE["E"])
+        self._lead_in, self._count = lead_in, count
+        self._splines: dict[float, Any] = {}
+
+    def at(self, distance: np.ndarray, y: float) -> HeightAndSlope:
+        """Height [m] and slope at distances [m] of the track at lateral position y [m]; flat before 0."""
+        spline = self._spline(y)
+        inside = np.clip(distance, 0.0, self._period - _SPACING)
+        height, slope = spline(inside), spline(inside, 1)
+        if self._lead_in > 0:
+            fade, rise = cosine_ramp(inside / self._lead_in, 1.0)
+            height, slope = fade * height, fade * slope + rise / self._lead_in * height
+        ahead = distance > 0
+        return np.where(ahead, height, 0.0), np.where(ahead, slope, 0.0)
+
+    def shared(self, number: np.ndarray, y: float) -> np.ndarray:
+        """Share c of the cross spectrum of left and right at wave numbers [cycles/m]."""
+        corner, exponent = self._coherence
+        return (1 + (2 * np.pi * number * 2 * abs(y) / corner) ** 2) ** (-exponent / 2)
+
+    def _spline(self, y: float) -> Any:
+        from scipy.interpolate import CubicSpline
+
+        if y not in self._splines:
+            common, left, right = self._waves
+            share = self.shared(self._number, y)
+            waves = common * np.sqrt(share) + (left if y >= 0 else right) * np.sqrt(1 - share)
+            self._splines[y] = CubicSpline(np.arange(self._count) * _SPACING, np.fft.irfft(waves, self._count))
+        return self._splines[y]

@@ -21,7 +21,7 @@ from susp_mj.plant import Meaning, Plant, write_mjcf
 from ..vehicle import DESIGN_LOAD, Axle, Vehicle
 from .parts import POINT_MASS, Form, ModelBuilder
 
-_FREEDOMS = {"heave": ("slide", [0, 0, 1]), "pitch": ("hinge", [0, 1, 0]), "roll": ("hinge", [1, 0, 0])}
+_FREEDOMS = {"heave": ("slide", [0.0, 0.0, 1.0]), "pitch": ("hinge", [0.0, 1.0, 0.0]), "roll": ("hinge", [1.0, 0.0, 0.0])}
 _BODY_HEIGHT = 0.65
 _WHEEL_RADIUS = 0.33
 _RIG_FREQUENCY = 2000.0  # rad/s; stiff against every suspension, soft enough for a step of 1 ms
@@ -118,10 +118,8 @@ def specification(
         raise InputError(f"no model '{model}'; {choices(MODELS, model)}", key="model")
     topology = MODELS[model]
     builder = ModelBuilder(f"{vehicle.name}_{model}", vehicle.source)
-    if topology.axles == 2:
-        axles = ["front", "rear"]
-    else:
-        axles = [axle or ("rear" if vehicle.rear is not None else "front")]
+    only = axle or ("rear" if vehicle.rear is not None else "front")
+    axles = ["front", "rear"] if topology.axles == 2 else [only]
     for name in axles:
         vehicle.axle(name)
     mass = _Mass.of(vehicle, topology, load, axles, model)
@@ -365,9 +363,7 @@ def _link_force(builder: ModelBuilder, topology: Topology, corner: _Corner, lift
         builder.add_terms("wheel_load", corner.station, ("input", "lateral_acceleration", -lift))
 
 
-def _longitudinal(
-    builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, mass: _Mass, position: dict[str, Form]
-) -> None:
+def _longitudinal(builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, mass: _Mass, position: dict[str, Form]) -> None:
     """Longitudinal acceleration a_x of the sprung mass (positive forward): pitch moment ``- m a_x h`` over the ground.
 
     The axles transmit it without anti-dive or anti-squat; those belong to a model with wheel paths.

@@ -1,0 +1,74 @@
+"""Random road of ISO 8608, seeded, with left-right coherence and axle delay (Zufallsstraße)."""
+
+from __future__ import annotations
+
+import functools
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import model_validator
+
+from susp_mj.description import wrong
+from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
+from susp_mj.plant import Input
+from susp_mj.roads import ROAD_CLASSES, RandomTracks
+from susp_mj.units import NonNegativeLength, PositiveLength, PositiveSpeed, PositiveTime
+
+
+class RandomRoad(Manoeuvre):
+    """Two tracks of an ISO 8608 road at constant speed; the rear axle follows on the front's tracks.
+
+    Each track has the one-sided displacement spectrum ``Gd(n) = Gd(n0) (n/n0)^-2``, n0 = 0.1 cycles/m, between the two
+    wavelengths. Left and right agree at long wavelengths and lose each other towards short ones. The same seed gives
+    the same road; a flat lead-in of `lead_in` metres fades into it.
+
+    Attributes:
+        road_class: A to H; the class' geometric mean roughness applies.
+        speed: [m/s].
+        seed: of the random phases.
+        longest, shortest: wavelengths [m].
+        lead_in: length over which the road fades in [m].
+
+    Source: ISO 8608:2016; coherence: see `susp_mj.roads.RandomTracks`.
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("road_height",)
+
+    kind: Literal["random_road"] = "random_road"
+    duration: PositiveTime = 30.0
+    road_class: str = "C"
+    speed: PositiveSpeed = 80 / 3.6
+    seed: int = 1
+    longest: PositiveLength = 100.0
+    shortest: PositiveLength = 0.1
+    lead_in: NonNegativeLength = 10.0
+
+    @model_validator(mode="after")
+    def _sensible(self) -> RandomRoad:
+        if self.road_class not in ROAD_CLASSES:
+            raise wrong(f"'{self.road_class}' is not allowed; choose {', '.join(ROAD_CLASSES)}", "road_class")
+        if self.shortest >= self.longest:
+            raise wrong(f"{self.shortest} m is not allowed; it must be below longest, {self.longest} m", "shortest")
+        if self.seed < 0:
+            raise wrong(f"{self.seed} is not allowed; it must be at least 0", "seed")
+        return self
+
+    def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
+        if place.quantity != "road_height":
+            return None
+        length = self.speed * float(time[-1]) + self.longest
+        tracks = _tracks(self.road_class, length, self.longest, self.shortest, self.lead_in, self.seed)
+        height, slope = tracks.at(self.speed * time + place.x, place.y)
+        return height, slope * self.speed
+
+
+@functools.lru_cache(maxsize=4)
+def _tracks(road_class: str, length: float, longest: float, shortest: float, lead_in: float, seed: int) -> RandomTracks:
+    """The road itself, made once for all wheels."""
+    return RandomTracks(road_class, length, longest, shortest, lead_in, seed)
+
+
+if __name__ == "__main__":
+    from design.cli import manoeuvre_script
+
+    manoeuvre_script("random_road")
