@@ -1,8 +1,11 @@
-"""Amplification over frequency, read from a vertical sine sweep by demodulation.
+"""Amplification over frequency, read from a vertical sine sweep by deconvolution.
 
-The sweep keeps its phase phi(t) with the run. A channel times ``exp(-i phi)``, averaged over a whole number of periods,
-is its first harmonic at the momentary frequency: for a linear car the transfer function, for a non-linear one the
-describing function at the sweep's amplitude.
+The spectrum of a channel over that of the road is a transfer function; back in time it is an impulse response. Because the
+sweep is exponential, the harmonics that a non-linear car adds end up well before time 0 in it and are cut away, so what
+remains is the first harmonic: for a linear car its transfer function, for a non-linear one the describing function at the
+sweep's amplitude.
+
+Source: A. Farina, 108th AES Convention (2000), 5093.
 """
 
 from __future__ import annotations
@@ -15,8 +18,8 @@ from susp_mj.run import Run
 
 from .number import Number
 
-PERIODS = 4
-"""Length of the averaging window, in periods of the excitation."""
+LOW_EDGE, HIGH_EDGE = 1.3, 1.09
+"""Factors in frequency by which the evaluated band stays away from the ends of the sweep."""
 
 
 @dataclass(frozen=True)
@@ -40,29 +43,44 @@ def amplification(run: Run, channel: str, station: str = "", points: int = 200) 
     """
     if "excitation_phase" not in run:
         return None
-    phase, frequency = run["excitation_phase"], run["excitation_frequency"]
     road = run.stations("road_height")
     reference = road[station] if station in road else next(iter(road.values()))
-    cycles = phase / (2 * np.pi)
-    first, last = 1 + PERIODS / 2, cycles[-1] - PERIODS / 2
-    if last <= first:
+    swept = run["excitation_frequency"]
+    low, high = float(swept[0]), float(swept[-1])
+    if not high > 2 * low or not np.any(reference):
         return None
-    centres = np.interp(np.geomspace(np.interp(first, cycles, frequency), np.interp(last, cycles, frequency), points), frequency, cycles)
-    response = _harmonic(run[channel] - run[channel][0], cycles, centres)
-    excitation = _harmonic(reference, cycles, centres)
-    return Amplification(np.interp(centres, cycles, frequency), response / excitation)
+    response = run[channel] - run[channel][0]
+    count = 2 ** int(np.ceil(np.log2(2 * len(reference))))
+    spectrum = np.fft.rfftfreq(count, run.step)
+    excitation = np.fft.rfft(reference, count)
+    band = _band(spectrum, low, high)
+    inside = band > 0
+    ratio = np.zeros(len(spectrum), complex)
+    ratio[inside] = band[inside] * np.fft.rfft(response, count)[inside] / excitation[inside]
+    window = _window(np.fft.fftfreq(count, 1 / count) * run.step, float(run.time[-1]), np.log(high / low))
+    kept, reference_kept = (np.fft.rfft(np.fft.irfft(each, count) * window) for each in (ratio, band))
+    frequency = np.geomspace(LOW_EDGE * low, high / HIGH_EDGE, points)
+    found = np.interp(frequency, spectrum[inside], (kept[inside] / reference_kept[inside]))
+    return Amplification(frequency, found)
 
 
-def _harmonic(values: np.ndarray, cycles: np.ndarray, centres: np.ndarray) -> np.ndarray:
-    """First harmonic in a Hann window of `PERIODS` cycles around each centre, in phase space."""
-    weight = np.gradient(cycles)
-    turning = values * np.exp(-2j * np.pi * cycles) * weight
-    results = np.empty(len(centres), complex)
-    for i, centre in enumerate(centres):
-        inside = slice(*np.searchsorted(cycles, [centre - PERIODS / 2, centre + PERIODS / 2]))
-        window = 1 + np.cos(2 * np.pi * (cycles[inside] - centre) / PERIODS)
-        results[i] = np.sum(turning[inside] * window) / np.sum(weight[inside] * window) * 2
-    return results
+def _band(frequency: np.ndarray, low: float, high: float) -> np.ndarray:
+    """1 within the band that is evaluated, falling to 0 at the ends of the sweep along cosines over log frequency."""
+    logarithm = np.log(np.maximum(frequency, 1e-12))
+    rise = np.clip((logarithm - np.log(low)) / np.log(LOW_EDGE), 0.0, 1.0)
+    fall = np.clip((np.log(high) - logarithm) / np.log(HIGH_EDGE), 0.0, 1.0)
+    return (1 - np.cos(np.pi * rise)) / 2 * (1 - np.cos(np.pi * fall)) / 2
+
+
+def _window(time: np.ndarray, duration: float, ratio: float) -> np.ndarray:
+    """Around time 0 of the impulse response: up to where its second harmonic begins, and a third of the sweep behind.
+
+    The k-th harmonic of an exponential sweep of length T appears ``T ln k / ln(f1/f0)`` before the origin.
+    """
+    before, after = 0.8 * duration * np.log(2) / ratio, duration / 3
+    rise = np.clip((time + before) / (before / 2), 0.0, 1.0)
+    fall = np.clip((after - time) / (after / 2), 0.0, 1.0)
+    return (1 - np.cos(np.pi * rise)) / 2 * (1 - np.cos(np.pi * fall)) / 2
 
 
 def body_resonance(run: Run) -> Number:
@@ -106,6 +124,6 @@ def _peak(run: Run, quantity: str, unit: str, *, place: bool = False) -> Number:
         candidate = (float(np.abs(found.ratio[at])), float(found.frequency[at]), station)
         best = candidate if best is None or candidate[0] > best[0] else best
     if best is None:
-        return Number(None, unit, f"the model has no {quantity}")
+        return Number(None, unit, f"the run has no {quantity}", applies=False)
     peak, frequency, station = best
     return Number(frequency if place else peak, unit, (station if place else f"{station} at {frequency:.2f} Hz").strip())

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from susp_mj.names import QUANTITIES
 from susp_mj.run import Run
 
 from .number import Number
@@ -33,11 +34,15 @@ def body_acceleration_min(run: Run) -> Number:
 
 def body_acceleration_rms(run: Run) -> Number:
     """Root mean square of the body's vertical acceleration over the whole run [m/s²]."""
+    if "body_acceleration" not in run:
+        return _missing("body_acceleration", "m/s²")
     return Number(_rms(run["body_acceleration"]), "m/s²")
 
 
 def body_displacement_max(run: Run) -> Number:
     """Largest rise of the body above its initial height [m]."""
+    if "body_displacement" not in run:
+        return _missing("body_displacement", "m")
     displacement = run["body_displacement"]
     at = int(np.argmax(displacement))
     return Number(float(displacement[at] - displacement[0]), "m", f"at {run.time[at]:.3f} s")
@@ -48,6 +53,8 @@ def overshoot(run: Run) -> Number:
 
     Has no value where the body ends where it began, as after a bump.
     """
+    if "body_displacement" not in run:
+        return _missing("body_displacement", "1")
     displacement = run["body_displacement"] - run["body_displacement"][0]
     final = _final(displacement)
     if abs(final) < 0.1 * float(np.abs(displacement).max()) or final == 0.0:
@@ -57,6 +64,8 @@ def overshoot(run: Run) -> Number:
 
 def settling_time(run: Run) -> Number:
     """Time from the first road input until the body stays within ±5 % of its largest departure from the final height [s]."""
+    if "body_displacement" not in run:
+        return _missing("body_displacement", "s")
     displacement = run["body_displacement"]
     start = _first_input(run)
     departure = np.abs(displacement - _final(displacement))
@@ -81,22 +90,21 @@ def wheel_load_max(run: Run) -> Number:
 
 def wheel_load_rms(run: Run) -> Number:
     """Root mean square of the dynamic share of the wheel load, load minus initial load [N]."""
-    values = {station: _rms(load - load[0]) for station, load in run.stations("wheel_load").items()}
-    station = max(values, key=lambda each: values[each])
-    return Number(values[station], "N", station)
+    return _choose({station: _rms(load - load[0]) for station, load in run.stations("wheel_load").items()}, "N", max)
 
 
 def contact_loss_time(run: Run) -> Number:
     """Time for which a wheel is off the road, summed over the run [s]."""
-    values = {station: float(np.sum(load <= CONTACT_LOST)) * run.step for station, load in run.stations("wheel_load").items()}
-    station = max(values, key=lambda each: values[each])
-    return Number(values[station], "s", station)
+    off = {station: float(np.sum(load <= CONTACT_LOST)) * run.step for station, load in run.stations("wheel_load").items()}
+    return _choose(off, "s", max)
 
 
 def contact_loss_instant(run: Run) -> Number:
     """First instant at which a wheel leaves the road [s]; no value if none does."""
     lost = {station: load <= CONTACT_LOST for station, load in run.stations("wheel_load").items()}
     first = {station: float(run.time[np.argmax(off)]) for station, off in lost.items() if off.any()}
+    if not lost:
+        return _missing("wheel_load", "s")
     if not first:
         return Number(None, "s", "the wheels keep contact")
     station = min(first, key=lambda each: first[each])
@@ -115,28 +123,43 @@ def travel_rebound(run: Run) -> Number:
 
 def travel_left_compression(run: Run) -> Number:
     """Smallest distance left to the compression stop [m], negative when pressed into it."""
-    left = {s: run.meta["travel"][s][1] - float(x.max()) for s, x in run.stations("suspension_deflection").items()}
-    station = min(left, key=lambda each: left[each])
-    return Number(left[station], "m", station)
+    return _choose({s: run.meta["travel"][s][1] - float(x.max()) for s, x in run.stations("suspension_deflection").items()}, "m", min)
 
 
 def travel_left_rebound(run: Run) -> Number:
     """Smallest distance left to the rebound stop [m], negative when pulled into it."""
-    left = {s: float(x.min()) - run.meta["travel"][s][0] for s, x in run.stations("suspension_deflection").items()}
-    station = min(left, key=lambda each: left[each])
-    return Number(left[station], "m", station)
+    return _choose({s: float(x.min()) - run.meta["travel"][s][0] for s, x in run.stations("suspension_deflection").items()}, "m", min)
 
 
 def stop_hits(run: Run) -> Number:
     """How many times a hard stop is hit, all wheels and both directions together."""
+    deflections = run.stations("suspension_deflection")
+    if not deflections:
+        return _missing("suspension_deflection", "1")
     hits = 0
-    for force in run.stations("stop_force").values():
-        touching = force != 0.0
-        hits += int(touching[0]) + int(np.sum(touching[1:] & ~touching[:-1]))
+    for station, deflection in deflections.items():
+        rebound, compression = run.meta["travel"][station]
+        for touching in (deflection > compression, deflection < rebound):
+            hits += int(touching[0]) + int(np.sum(touching[1:] & ~touching[:-1]))
     return Number(float(hits), "1")
 
 
+def _missing(quantity: str, unit: str) -> Number:
+    """Answer for a run that lacks a quantity."""
+    return Number(None, unit, f"the run has no {quantity}", applies=False)
+
+
+def _choose(values: dict[str, float], unit: str, choose: Callable[..., str]) -> Number:
+    """The worst station's value, noting the station."""
+    if not values:
+        return Number(None, unit, "the run has no such channel", applies=False)
+    station = choose(values, key=lambda each: values[each])
+    return Number(values[station], unit, station)
+
+
 def _extreme(run: Run, channel: str, pick: Callable[..., Any]) -> Number:
+    if channel not in run:
+        return _missing(channel, QUANTITIES[channel][0])
     values = run[channel]
     at = int(pick(values))
     return Number(float(values[at]), run.channels[channel].unit, f"at {run.time[at]:.3f} s")
@@ -145,9 +168,11 @@ def _extreme(run: Run, channel: str, pick: Callable[..., Any]) -> Number:
 def _worst(run: Run, quantity: str, pick: Callable[..., Any], choose: Callable[..., str]) -> Number:
     """Extreme of a quantity over all stations, noting station and instant."""
     extremes = {s: (float(v[int(pick(v))]), float(run.time[int(pick(v))])) for s, v in run.stations(quantity).items()}
+    unit = QUANTITIES[quantity][0]
+    if not extremes:
+        return _missing(quantity, unit)
     station = choose(extremes, key=lambda each: extremes[each][0])
     value, time = extremes[station]
-    unit = next(c.unit for c in run.channels.values() if c.quantity == quantity)
     return Number(value, unit, f"{station} at {time:.3f} s".strip())
 
 

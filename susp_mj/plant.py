@@ -17,7 +17,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from .elements.law import ACTUATOR_MARK, USERDATA_HEADER
+from .elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
 from .errors import InputError, SimulationError
 from .names import channel_name
 
@@ -151,6 +151,7 @@ class Plant:
         text = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_TEXT, META)
         if text < 0:
             raise InputError(f"is not a model that susp-mj built: it has no custom text '{META}'", source=str(path))
+        _check_partners(model, str(path))
         data = model.text_data[model.text_adr[text] : model.text_adr[text] + model.text_size[text]]
         return cls(model, Meaning.from_json(bytes(data).rstrip(b"\0").decode()))
 
@@ -189,6 +190,20 @@ class Plant:
                 values += factor * columns[source][:, column]
             results.append((output, values))
         return results
+
+
+def _check_partners(model: mujoco.MjModel, source: str) -> None:
+    """Refuse a file in which an anti-roll bar's other half is not where its parameters say."""
+    for i, user in enumerate(model.actuator_user):
+        if len(user) >= ACTUATOR_HEADER and user[0] == ACTUATOR_MARK and user[2] != 0.0:
+            partner = i + int(user[2])
+            inside = 0 <= partner < model.nu
+            if not inside or model.actuator_user[partner][1] != user[1] or partner + int(model.actuator_user[partner][2]) != i:
+                raise InputError(
+                    f"its partner is not {int(user[2])} actuators further on; keep the order of the two",
+                    key=f"actuator '{model.actuator(i).name}'",
+                    source=source,
+                )
 
 
 def write_mjcf(spec: mujoco.MjSpec, meaning: Meaning, path: str | Path) -> Path:

@@ -269,8 +269,10 @@ class TableSpring(Spring):
         else:
             coefficients = np.asarray(PchipInterpolator(x, f).c).T
         last, width = coefficients[-1], x[-1] - x[-2]
-        end_rate = (3 * last[0] * width + 2 * last[1]) * width + last[2]
-        straight = [np.array([0.0, 0.0, coefficients[0][2], f[0]]), np.array([0.0, 0.0, end_rate, f[-1]])]
+        slopes = np.diff(f) / np.diff(x)
+        start_rate = coefficients[0][2] or slopes[0]  # the cubic may end level; the extension must not
+        end_rate = max((3 * last[0] * width + 2 * last[1]) * width + last[2], 0.0) or slopes[-1]
+        straight = [np.array([0.0, 0.0, start_rate, f[0]]), np.array([0.0, 0.0, end_rate, f[-1]])]
         pieces: list[Any] = [straight[0], *coefficients, straight[1]]
         return (self.stops.rebound, self.stops.compression, float(len(x)), *x.tolist(), *np.concatenate(pieces).tolist())
 
