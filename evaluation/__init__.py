@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import frequency, ride
+from . import attitude, frequency, ride
 from .number import Criterion, Evaluate, Number
 
 RIDE: tuple[Evaluate, ...] = (
@@ -30,7 +30,22 @@ FREQUENCY: tuple[Evaluate, ...] = (
     frequency.suspension_amplification,
     frequency.wheel_resonance,
     frequency.wheel_load_amplification,
+    frequency.pitch_amplification,
+    frequency.roll_amplification,
 )
-NUMBERS: dict[str, Evaluate] = {function.__name__: function for function in (*RIDE, *FREQUENCY)}
+ATTITUDE: tuple[Evaluate, ...] = (
+    attitude.pitch_angle_max,
+    attitude.pitch_angle_min,
+    attitude.roll_angle_max,
+    attitude.roll_angle_final,
+    attitude.roll_gradient,
+    attitude.load_share_front,
+    attitude.load_transfer_front,
+    attitude.load_transfer_rear,
+    attitude.load_transfer_share,
+    attitude.anti_roll_bar_front,
+    attitude.anti_roll_bar_rear,
+)
+NUMBERS: dict[str, Evaluate] = {function.__name__: function for function in (*RIDE, *ATTITUDE, *FREQUENCY)}
 
-__all__ = ["FREQUENCY", "NUMBERS", "RIDE", "Criterion", "Number"]
+__all__ = ["ATTITUDE", "FREQUENCY", "NUMBERS", "RIDE", "Criterion", "Number"]

@@ -108,6 +108,16 @@ def wheel_load_amplification(run: Run) -> Number:
     return _peak(run, "wheel_load", "N/m")
 
 
+def pitch_amplification(run: Run) -> Number:
+    """Largest pitch angle per metre of road height [rad/m]."""
+    return _peak(run, "pitch_angle", "rad/m")
+
+
+def roll_amplification(run: Run) -> Number:
+    """Largest roll angle per metre of road height [rad/m]."""
+    return _peak(run, "roll_angle", "rad/m")
+
+
 def wheel_resonance(run: Run) -> Number:
     """Frequency of the largest wheel load amplitude per metre of road [Hz]."""
     return _peak(run, "wheel_load", "Hz", place=True)

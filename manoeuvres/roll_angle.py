@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from susp_mj.units import Angle, PositiveTime
+from susp_mj.units import PositiveTime, Quantity
 
 from .rise import Rise
 
@@ -16,6 +16,9 @@ class RollAngle(Rise):
 
     Attributes:
         angle: [rad], positive left side up.
+        lateral_acceleration: a_y [m/s²] at which this angle is required; with the angle it is the roll flexibility from
+            which anti-roll bars are estimated.
+        front_share: required share of the front axle in the roll moment, 0 to 1.
         start, rise_time: [s]; slow, so that damping plays no part at the end.
 
     Source: thesis, table 7.1, "estimation of anti-roll bar stiffness".
@@ -27,7 +30,9 @@ class RollAngle(Rise):
     kind: Literal["roll_angle"] = "roll_angle"
     duration: PositiveTime = 6.0
     rise_time: PositiveTime = 4.0
-    angle: Angle = np.radians(5.0)
+    angle: Annotated[float, Quantity("rad", gt=0)] = np.radians(5.0)
+    lateral_acceleration: Annotated[float, Quantity("m/s²", gt=0)] = 7.0
+    front_share: Annotated[float, Quantity("", ge=0, le=1)] = 0.6
 
     def level(self) -> float:
         return self.angle

@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 import mujoco
 
-from susp_mj.elements import AntiRollBar, Element, Overturning, Rig
+from susp_mj.elements import GRAVITY, AntiRollBar, Element, Overturning, Rig
 from susp_mj.errors import InputError, choices
 from susp_mj.names import channel_name
 from susp_mj.plant import Meaning, Plant, write_mjcf
@@ -127,7 +127,7 @@ def specification(
     corners = _corners(builder, vehicle, topology, axles, mass)
     for group in (corners[i : i + topology.sides] for i in range(0, len(corners), topology.sides)):
         _axle(builder, topology, body, position, group)
-    _lateral(builder, vehicle, topology, load, corners, position)
+    roll_lever = _lateral(builder, vehicle, topology, load, corners, position)
     _longitudinal(builder, vehicle, topology, load, mass, position)
     _seat(builder, vehicle, mass, position)
     if rig is not None:
@@ -142,6 +142,8 @@ def specification(
             "unsprung_mass": sum(corner.axle.unsprung_mass or 0.0 for corner in corners) if topology.sprung_wheels else 0.0,
             "cg_x": mass.x,
             "cg_y": mass.y,
+            **({"roll_lever": roll_lever} if roll_lever is not None else {}),
+            **{f"track_{name}": vehicle.axle(name).track or 0.0 for name in axles if topology.sides == 2},
         },
     )
 
@@ -334,15 +336,15 @@ def _draw_wheel(builder: ModelBuilder, body: Any, place: list[float]) -> None:
 
 def _lateral(
     builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, corners: Sequence[_Corner], position: dict[str, Form]
-) -> None:
+) -> float | None:
     """Lateral acceleration a_y of the sprung mass (positive in a left turn), and gravity on the rolling body.
 
     The inertial force ``-m a_y`` rolls the body about the roll axis with ``m a_y h``, positive; links carry the rest
-    straight to the wheels: ``m_axle a_y z_rc / t`` up on the left, down on the right.
+    straight to the wheels: ``m_axle a_y z_rc / t`` up on the left, down on the right. Returns m h [kg m].
     """
     centre = vehicle.cg_height(load)
     if "roll" not in position or centre is None or any(corner.axle.roll_centre_height is None for corner in corners):
-        return
+        return None
     lever = 0.0
     for corner in corners:
         height = corner.axle.roll_centre_height or 0.0
@@ -351,8 +353,9 @@ def _lateral(
         lift = corner.side * mass * height / (corner.axle.track or 1.0)
         if lift != 0.0:
             _link_force(builder, topology, corner, lift)
-    builder.force("overturning", Overturning(moment=lever * 9.81), position["roll"])
+    builder.force("overturning", Overturning(moment=lever * GRAVITY), position["roll"])
     builder.motor("roll_moment", position["roll"], "lateral_acceleration", lever)
+    return lever
 
 
 def _link_force(builder: ModelBuilder, topology: Topology, corner: _Corner, lift: float) -> None:

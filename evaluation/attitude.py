@@ -1,0 +1,147 @@
+"""Numbers of the body's attitude and of the wheel load's distribution, and the anti-roll bars that a target needs."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from susp_mj.run import Run
+
+from .number import Number
+
+GRAVITY = 9.81
+
+
+def pitch_angle_max(run: Run) -> Number:
+    """Largest nose-down pitch from the initial attitude [rad]."""
+    return _largest(run, "pitch_angle", 1.0)
+
+
+def pitch_angle_min(run: Run) -> Number:
+    """Largest nose-up pitch from the initial attitude [rad], negative."""
+    return _largest(run, "pitch_angle", -1.0)
+
+
+def roll_angle_max(run: Run) -> Number:
+    """Largest roll from the initial attitude, to either side [rad], without sign."""
+    if "roll_angle" not in run:
+        return _without("roll_angle", "rad")
+    roll = run["roll_angle"] - run["roll_angle"][0]
+    at = int(np.argmax(np.abs(roll)))
+    side = "left side up" if roll[at] > 0 else "right side up"
+    return Number(abs(float(roll[at])), "rad", f"{side} at {run.time[at]:.3f} s")
+
+
+def roll_angle_final(run: Run) -> Number:
+    """Roll at the end of the run, from the initial attitude [rad], positive left side up."""
+    if "roll_angle" not in run:
+        return _without("roll_angle", "rad")
+    return Number(float(run["roll_angle"][-1] - run["roll_angle"][0]), "rad")
+
+
+def roll_gradient(run: Run) -> Number:
+    """Roll per lateral acceleration at the end of the run [rad/(m/s²)]."""
+    if "lateral_acceleration" not in run or "roll_angle" not in run or run["lateral_acceleration"][-1] == 0.0:
+        return Number(None, "rad/(m/s²)", "needs a lateral acceleration", applies=False)
+    return Number(float((run["roll_angle"][-1] - run["roll_angle"][0]) / run["lateral_acceleration"][-1]), "rad/(m/s²)")
+
+
+def load_share_front(run: Run) -> Number:
+    """Front axle's share of the wheel loads at the end of the run."""
+    loads = {station: load[-1] for station, load in run.stations("wheel_load").items()}
+    front = sum(load for station, load in loads.items() if station.startswith("f"))
+    if not front or front == sum(loads.values()):
+        return Number(None, "1", "needs two axles", applies=False)
+    return Number(float(front / sum(loads.values())), "1")
+
+
+def load_transfer_front(run: Run) -> Number:
+    """Lateral load transfer of the front axle at the end: half of right minus left, against the start [N]."""
+    return _transfer(run, "fl", "fr")
+
+
+def load_transfer_rear(run: Run) -> Number:
+    """Lateral load transfer of the rear axle at the end: half of right minus left, against the start [N]."""
+    return _transfer(run, "rl", "rr")
+
+
+def load_transfer_share(run: Run) -> Number:
+    """Front axle's share of the lateral load transfer at the end."""
+    front, rear = load_transfer_front(run).value, load_transfer_rear(run).value
+    if front is None or rear is None or abs(front + rear) < 1.0:
+        return Number(None, "1", "needs a lateral load transfer on both axles", applies=False)
+    return Number(front / (front + rear), "1")
+
+
+def anti_roll_bar_front(run: Run) -> Number:
+    """Rate of the front anti-roll bar that the required roll flexibility and distribution need, at the wheel [N/m]."""
+    return _bar(run, "front")
+
+
+def anti_roll_bar_rear(run: Run) -> Number:
+    """Rate of the rear anti-roll bar that the required roll flexibility and distribution need, at the wheel [N/m]."""
+    return _bar(run, "rear")
+
+
+def required_roll_stiffness(lever: float, lateral_acceleration: float, angle: float, gravity: float = GRAVITY) -> float:
+    """Roll stiffness ``K = m h (a_y + g phi)/phi`` [N m/rad] for the roll angle phi at the lateral acceleration a_y.
+
+    Args:
+        lever: m h [kg m], h the height of the centre of gravity above the roll axis.
+        lateral_acceleration: a_y [m/s²].
+        angle: phi [rad].
+        gravity: 0 leaves the overturning of the rolled body out.
+
+    Source: thesis appendix 9; the gravity term is reconstructed.
+    """
+    return lever * (lateral_acceleration + gravity * angle) / angle
+
+
+def bar_rate(roll_stiffness: float, share: float, track: float, spring_rate: float) -> float:
+    """Bar rate at the wheel [N/m] that completes an axle: ``c = K share 2/t² - k``; negative if the springs exceed it.
+
+    Args:
+        roll_stiffness: K of the whole car [N m/rad].
+        share: of this axle.
+        track: t [m].
+        spring_rate: secant rate k of one wheel's spring over the roll [N/m].
+    """
+    return roll_stiffness * share * 2 / track**2 - spring_rate
+
+
+def _bar(run: Run, axle: str) -> Number:
+    """Bar from a run on the roll rig: the springs' secant rate at the held angle, heave left free."""
+    left, right = f"{axle[0]}l", f"{axle[0]}r"
+    manoeuvre, facts = run.meta.get("manoeuvre", {}), run.meta.get("facts", {})
+    forces, travels = run.stations("spring_force"), run.stations("suspension_deflection")
+    if manoeuvre.get("kind") != "roll_angle" or "roll_lever" not in facts or left not in forces or right not in forces:
+        return Number(None, "N/m", "needs a car with roll centres on the roll rig", applies=False)
+    secant = float((forces[left][-1] - forces[right][-1]) / (travels[left][-1] - travels[right][-1]))
+    stiffness = required_roll_stiffness(facts["roll_lever"], manoeuvre["lateral_acceleration"], manoeuvre["angle"])
+    share = manoeuvre["front_share"] if axle == "front" else 1 - manoeuvre["front_share"]
+    rate = bar_rate(stiffness, share, facts[f"track_{axle}"], secant)
+    words = f"springs {secant:.0f} N/m at {math.degrees(manoeuvre['angle']):.1f}°"
+    if rate < 0:
+        return Number(0.0, "N/m", f"none: the springs alone exceed the target by {-rate:.0f} N/m ({words})")
+    return Number(rate, "N/m", words)
+
+
+def _transfer(run: Run, left: str, right: str) -> Number:
+    loads = run.stations("wheel_load")
+    if left not in loads or right not in loads:
+        return Number(None, "N", "needs both wheels of the axle", applies=False)
+    difference = loads[right] - loads[left]
+    return Number(float(difference[-1] - difference[0]) / 2, "N")
+
+
+def _largest(run: Run, channel: str, sign: float) -> Number:
+    if channel not in run:
+        return _without(channel, "rad")
+    values = sign * (run[channel] - run[channel][0])
+    at = int(np.argmax(values))
+    return Number(sign * float(values[at]), "rad", f"at {run.time[at]:.3f} s")
+
+
+def _without(channel: str, unit: str) -> Number:
+    return Number(None, unit, f"the model has no {channel}", applies=False)
