@@ -45,7 +45,7 @@ class Setting(Description):
         name: label in tables and plots.
         vehicle: shipped car or path of a TOML file, relative to the case file.
         characteristics: which of the vehicle's sets.
-        load: load case.
+        load: load case, or several: each makes a configuration of its own, named after it.
         axle: for models of one axle.
         set: overrides by dotted path, as a vehicle file would have them.
     """
@@ -53,9 +53,15 @@ class Setting(Description):
     name: str = Field(min_length=1)
     vehicle: str
     characteristics: str | None = None
-    load: str = DESIGN_LOAD
+    load: str | tuple[str, ...] = DESIGN_LOAD
     axle: str | None = None
     set: dict[str, Any] = Field(default_factory=dict)
+
+    def single(self) -> list[Setting]:
+        """This setting once for each of its load cases."""
+        if isinstance(self.load, str):
+            return [self]
+        return [self.model_copy(update={"name": f"{self.name}, {load}", "load": load}) for load in self.load]
 
 
 class Case(Description):
@@ -90,11 +96,16 @@ class Case(Description):
             for name in names:
                 if name not in NUMBERS:
                     raise wrong(f"'{name}' unknown; {choices(NUMBERS, name)}", key)
-        labels = [each.name for each in self.configuration]
+        labels = [each.name for _, each in self.settings]
         for i, label in enumerate(labels):
             if label in labels[:i]:
                 raise wrong(f"'{label}' names two configurations", f"configuration.{i}.name")
         return self
+
+    @property
+    def settings(self) -> list[tuple[int, Setting]]:
+        """The configurations one by one, load cases taken apart, each with its place in the file."""
+        return [(place, single) for place, each in enumerate(self.configuration) for single in each.single()]
 
 
 def available_cases() -> list[str]:
@@ -143,10 +154,10 @@ def run_case(case: Case, path: Path, progress: Report = lambda task, done: None)
         SimulationError: a run diverged or has no equilibrium.
     """
     manoeuvre = read_manoeuvre(case.manoeuvre, path.name)
-    prepared = [_prepare(case, manoeuvre, setting, path, i) for i, setting in enumerate(case.configuration)]
+    prepared = [_prepare(case, manoeuvre, setting, path, place) for place, setting in case.settings]
     names = tuple(dict.fromkeys((*case.numbers, *case.criteria))) if case.numbers else tuple(NUMBERS)
     configurations = []
-    for i, (setting, (vehicle, plant)) in enumerate(zip(case.configuration, prepared, strict=True)):
+    for i, ((_, setting), (vehicle, plant)) in enumerate(zip(case.settings, prepared, strict=True)):
 
         def report(done: float, i: int = i, label: str = setting.name) -> None:
             progress(f"simulate {label}", (i + done) / len(prepared))
@@ -169,7 +180,7 @@ def _prepare(case: Case, manoeuvre: Manoeuvre, setting: Setting, path: Path, ind
     name = setting.vehicle
     try:
         vehicle = load_vehicle(path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set)
-        return vehicle, build(vehicle, case.model, setting.load, setting.axle, manoeuvre.rig)
+        return vehicle, build(vehicle, case.model, str(setting.load), setting.axle, manoeuvre.rig)
     except InputError as error:
         if error.source:
             raise

@@ -91,6 +91,25 @@ def build(
     typer.echo(write(vehicle, model, out or folder / f"{vehicle.name}_{model}.xml", load, axle))
 
 
+@app.command()
+def modes(
+    car: Annotated[str, typer.Argument(help="Shipped car or vehicle file.")],
+    model: Annotated[str, typer.Option("--model", "-m", help="Topology, see 'susp-mj list'.")] = "full_7dof",
+    characteristics: Characteristics = None,
+    load: Annotated[str, typer.Option(help="Load case.")] = "ko",
+    axle: Annotated[str | None, typer.Option(help="front or rear, for models of one axle.")] = None,
+) -> None:
+    """Natural frequencies, damping ratios and mode shapes at static equilibrium, friction left out."""
+    from susp_mj.linear import linearise
+    from vehicles.mjcf import build
+    from vehicles.vehicle import load_vehicle
+
+    from .show import print_modes
+
+    vehicle = load_vehicle(car, characteristics)
+    print_modes(linearise(build(vehicle.without_friction(), model, load, axle)), f"{vehicle.title}, {model}, load {load}")
+
+
 @app.command("list")
 def list_() -> None:
     """List cars, models, manoeuvres, cases, elements and evaluation numbers."""

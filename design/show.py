@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,6 +18,7 @@ from evaluation.number import Number
 
 if TYPE_CHECKING:
     from evaluation.compare import Characteristic, Comparison
+    from susp_mj.linear import Linear, Mode
 
 
 def print_comparison(comparison: Comparison) -> None:
@@ -98,6 +101,31 @@ def _key_values(curve: Characteristic) -> list[str]:
     ]
 
 
+def print_modes(linear: Linear, title: str) -> None:
+    """Modes of a linearised car: frequency, damping ratio, the joints that move."""
+    table = Table(title=f"Modes: {title}", box=SIMPLE_HEAD, title_justify="left")
+    for column in ("frequency", "damping ratio", "shape (largest = 1, phase where it is not 0 or 180°)"):
+        table.add_column(column, justify="left" if column.startswith("shape") else "right")
+    for mode in linear.modes():
+        if mode.oscillates:
+            table.add_row(f"{mode.frequency:.3f} Hz", f"{mode.damping:.3f}", _shape(mode))
+    _console().print(table)
+
+
+def _shape(mode: Mode) -> str:
+    """Joints of a mode that move at least 5 % of the largest, with sign or phase."""
+    words = []
+    for joint, amplitude in mode.shape.items():
+        size, phase = abs(amplitude), math.degrees(cmath.phase(amplitude))
+        if size < 0.05:
+            continue
+        if abs(phase) < 10 or abs(phase) > 170:
+            words.append(f"{joint} {math.copysign(size, amplitude.real):+.2f}")
+        else:
+            words.append(f"{joint} {size:.2f} ∠{phase:.0f}°")
+    return ", ".join(words)
+
+
 def print_lists() -> None:
     """Everything there is to choose from."""
     from evaluation import NUMBERS
@@ -114,9 +142,28 @@ def print_lists() -> None:
     _print_pairs("Cars and their sets of characteristics", cars)
     _print_pairs("Models", {name: topology.title for name, topology in MODELS.items()})
     _print_pairs("Manoeuvres (German name)", first_lines)
+    _print_matrix()
     _print_pairs("Cases", {name: _case_title(name) for name in available_cases()})
     _print_pairs("Elements", {"springs": ", ".join(SPRINGS), "dampers": ", ".join(DAMPERS), "tyres": ", ".join(TYRES)})
     _print_pairs("Evaluation numbers", {name: _first_line(number) for name, number in NUMBERS.items()})
+
+
+def _print_matrix() -> None:
+    """Which manoeuvre runs on which model: it drives inputs that the model has."""
+    from manoeuvres import MANOEUVRES
+    from vehicles.mjcf import MODELS, build
+    from vehicles.vehicle import load_vehicle
+
+    table = Table(title="Model x manoeuvre", box=SIMPLE_HEAD, title_justify="left", title_style="bold")
+    table.add_column("")
+    for manoeuvre in MANOEUVRES:
+        table.add_column(manoeuvre, justify="center")
+    car = load_vehicle("s_class")
+    for model, topology in MODELS.items():
+        plant = build(car, model, rig="roll" if "roll" in topology.freedoms else None)
+        offered = {place.quantity for place in plant.meaning.inputs}
+        table.add_row(model, *("x" if set(kind.needs) <= offered else "" for kind in MANOEUVRES.values()))
+    _console().print(table)
 
 
 def _case_title(name: str) -> str:

@@ -179,20 +179,25 @@ class _Mass:
 
 
 def _body(builder: ModelBuilder, topology: Topology, mass: _Mass) -> tuple[Any, dict[str, Form]]:
-    """The sprung body at its centre of gravity, with its freedoms as forms."""
-    inertia = [mass.roll_inertia, mass.pitch_inertia, mass.pitch_inertia + mass.roll_inertia]
-    if topology.freedoms == ("heave",):
-        inertia = POINT_MASS["inertia"]
-    elif topology.freedoms == ("heave", "roll"):
-        inertia = [mass.roll_inertia] * 3
-    elif topology.freedoms == ("heave", "pitch"):
-        inertia = [mass.pitch_inertia] * 3
-    place = {**POINT_MASS, "inertia": inertia, "mass": mass.mass}
+    """The sprung body at its centre of gravity, with its freedoms as forms.
+
+    Its mass heaves; its moments of inertia sit on a child that pitches and rolls. Wheels are children of the part that only
+    heaves, so they move vertically and every height stays the linear form that defines these models, at any angle. With
+    Jzz = Jyy pitch and roll do not couple either.
+    """
+    place = {**POINT_MASS, "mass": mass.mass}
     body = builder.spec.worldbody.add_body(name="body", pos=[mass.x, mass.y, _BODY_HEIGHT], **place)
-    position = {name: builder.joint(body, name, *_FREEDOMS[name]) for name in topology.freedoms}
+    position = {"heave": builder.joint(body, "heave", *_FREEDOMS["heave"])}
+    shell = body
+    if len(topology.freedoms) > 1:
+        inertia = [mass.roll_inertia, mass.pitch_inertia, mass.pitch_inertia]
+        if "pitch" not in topology.freedoms:
+            inertia = [mass.roll_inertia] * 3
+        shell = body.add_body(name="attitude", **{**POINT_MASS, "inertia": inertia, "mass": 1e-9 * mass.mass})
+        position |= {name: builder.joint(shell, name, *_FREEDOMS[name]) for name in topology.freedoms if name != "heave"}
     length = 2.4 if topology.axles == 2 else 0.35
     width = 0.6 if topology.sides == 2 else 0.25
-    builder.draw(body, mujoco.mjtGeom.mjGEOM_BOX, [length / 2 + 0.3, width, 0.1], [0.16, 0.36, 0.6, 1])
+    builder.draw(shell, mujoco.mjtGeom.mjGEOM_BOX, [length / 2 + 0.3, width, 0.1], [0.16, 0.36, 0.6, 1])
     for name, quantity in (("heave", "body"), ("pitch", "pitch"), ("roll", "roll")):
         if name in position:
             words = ("displacement", "velocity", "acceleration") if name == "heave" else ("angle", "rate", "acceleration")
@@ -275,13 +280,14 @@ def _massless_wheel(builder: ModelBuilder, position: dict[str, Form], corner: _C
 
 
 def _sprung_wheel(builder: ModelBuilder, body: Any, position: dict[str, Form], corner: _Corner) -> None:
-    """A wheel with mass, child of the body on joint ``travel``, on a tyre that cannot pull."""
+    """A wheel with mass, child of the heaving body on joint ``travel``, on a tyre that cannot pull."""
     mass = _of_axle(builder, corner, "unsprung_mass")
     wheel = body.add_body(name=corner.name("wheel"), pos=[corner.x, corner.y, 0], mass=mass, **POINT_MASS)
     travel = builder.joint(wheel, corner.name("travel"), "slide", [0, 0, 1])
     _draw_wheel(builder, wheel, [0, 0])
-    _suspension(builder, corner, travel)
-    _tyre(builder, corner, _height(position, corner.x, corner.y) + travel)
+    height = position["heave"] + travel
+    _suspension(builder, corner, height - _height(position, corner.x, corner.y))
+    _tyre(builder, corner, height)
 
 
 def _massless_rigid_axle(builder: ModelBuilder, _body: Any, position: dict[str, Form], corners: Sequence[_Corner]) -> None:
@@ -303,7 +309,7 @@ def _massless_rigid_axle(builder: ModelBuilder, _body: Any, position: dict[str, 
 
 
 def _sprung_rigid_axle(builder: ModelBuilder, body: Any, position: dict[str, Form], corners: Sequence[_Corner]) -> None:
-    """A beam with mass, child of the body with heave and roll of its own, on two tyres that cannot pull."""
+    """A beam with mass, child of the heaving body with heave and roll of its own, on two tyres that cannot pull."""
     left, right = corners
     axle, half_track = left.axle, (left.y - right.y) / 2
     lever, offset = _lever(axle), (left.y + right.y) / 2
@@ -316,8 +322,10 @@ def _sprung_rigid_axle(builder: ModelBuilder, body: Any, position: dict[str, For
     for corner in corners:
         _draw_wheel(builder, beam, [0, corner.y - offset])
         arm = corner.y - offset
-        _suspension(builder, corner, heave + roll * (lever * arm), lever=lever)
-        _tyre(builder, corner, _height(position, corner.x, corner.y) + heave + roll * arm)
+        middle = position["heave"] + heave
+        seat = _height(position, corner.x, offset + lever * arm)
+        _suspension(builder, corner, middle + roll * (lever * arm) - seat, lever=lever)
+        _tyre(builder, corner, middle + roll * arm)
 
 
 def _tyre(builder: ModelBuilder, corner: _Corner, height: Form) -> None:
