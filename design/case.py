@@ -21,7 +21,7 @@ from susp_mj.description import Description, validate, wrong
 from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.plant import Plant
-from susp_mj.simulation import STEP, simulate
+from susp_mj.simulation import simulate
 from susp_mj.units import Quantity, to_si
 from vehicles.mjcf import MODELS, build
 from vehicles.vehicle import DESIGN_LOAD, Vehicle, load_vehicle, read_toml
@@ -74,8 +74,8 @@ class Case(Description):
         configuration: what is compared, in order.
         numbers: evaluation numbers; all that apply if empty.
         criteria: bands by number.
-        step: integration step [s].
-        record_every: keep every n-th step.
+        step: integration step [s]; by default 1 ms or what the dampers' mounts need.
+        record_every: keep every n-th step; by default one a millisecond.
     """
 
     title: str
@@ -85,8 +85,8 @@ class Case(Description):
     configuration: tuple[Setting, ...] = Field(min_length=1)
     numbers: tuple[str, ...] = ()
     criteria: dict[str, Band] = Field(default_factory=dict)
-    step: Annotated[float, Quantity("s", gt=0)] = STEP
-    record_every: int = Field(default=1, ge=1)
+    step: Annotated[float, Quantity("s", gt=0)] | None = None
+    record_every: int | None = Field(default=None, ge=1)
 
     @model_validator(mode="after")
     def _known_names(self) -> Case:

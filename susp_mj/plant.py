@@ -6,6 +6,7 @@ written can be read and run again.
 
 from __future__ import annotations
 
+import copy
 import ctypes
 import dataclasses
 import json
@@ -257,7 +258,8 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
     from .compiled import attach_input, install
 
     install(plant.laws)
-    model = plant.model
+    model = copy.copy(plant.model)
+    model.tendon_actfrclimited[:] = 0  # a wheel at rest is on the road; without its limit every force has a slope
     data = mujoco.MjData(model)
     attach_input(data, block)
 

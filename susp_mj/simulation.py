@@ -17,7 +17,9 @@ from .plant import Plant, static_equilibrium
 from .run import Channel, Run, described
 
 STEP = 1e-3
-"""Default integration step [s]."""
+"""Longest integration step chosen by itself, and spacing of its records [s]."""
+FINEST = 20
+"""Into how many steps a millisecond is cut at most without being asked."""
 STABLE = 2.785
 """Runge-Kutta 4 is stable on the negative real axis up to step / time constant = 2.785."""
 
@@ -27,7 +29,14 @@ _CHUNK = 2000
 Progress = Callable[[float], None]
 
 
-def simulate(plant: Plant, manoeuvre: Manoeuvre, *, step: float = STEP, record_every: int = 1, progress: Progress | None = None) -> Run:
+def simulate(
+    plant: Plant,
+    manoeuvre: Manoeuvre,
+    *,
+    step: float | None = None,
+    record_every: int | None = None,
+    progress: Progress | None = None,
+) -> Run:
     """Run a manoeuvre on a plant from static equilibrium, with classical Runge-Kutta of fourth order.
 
     Inputs are sampled at half steps, where the Runge-Kutta stages ask for them, so a smooth input keeps the order.
@@ -37,8 +46,9 @@ def simulate(plant: Plant, manoeuvre: Manoeuvre, *, step: float = STEP, record_e
     Args:
         plant: from `vehicles.mjcf.build` or `Plant.from_mjcf`.
         manoeuvre: from `manoeuvres`, or your own.
-        step: integration step [s].
-        record_every: keep every n-th step.
+        step: integration step [s]; None takes 1 ms, or the largest whole fraction of it that no time constant of a
+            damper and its mount falls below.
+        record_every: keep every n-th step; None keeps one a millisecond, or every step if the step is given.
         progress: called with the fraction done, about every 2000 steps.
 
     Raises:
@@ -49,6 +59,10 @@ def simulate(plant: Plant, manoeuvre: Manoeuvre, *, step: float = STEP, record_e
     from .compiled import advance, attach_input, input_block, install
 
     meaning = plant.meaning
+    if step is None:
+        parts = fine_enough(plant)
+        step, record_every = STEP / parts, parts if record_every is None else record_every
+    record_every = 1 if record_every is None else record_every
     if not (np.isfinite(step) and step > 0) or record_every < 1:
         raise InputError(f"step {step} s and record_every {record_every} are not allowed; both must be positive", source="simulate")
     manoeuvre.check(meaning.inputs, meaning.model)
@@ -87,7 +101,7 @@ def simulate(plant: Plant, manoeuvre: Manoeuvre, *, step: float = STEP, record_e
 
 
 def simulate_many(
-    jobs: Sequence[tuple[Plant, Manoeuvre]], *, step: float = STEP, record_every: int = 1, workers: int | None = None
+    jobs: Sequence[tuple[Plant, Manoeuvre]], *, step: float | None = None, record_every: int | None = None, workers: int | None = None
 ) -> list[Run]:
     """Run several simulations side by side on threads; the results are those of `simulate`, in the order given.
 
@@ -99,6 +113,14 @@ def simulate_many(
         install(plant.laws)
     with ThreadPoolExecutor(workers) as pool:
         return list(pool.map(lambda job: simulate(*job, step=step, record_every=record_every), jobs))
+
+
+def fine_enough(plant: Plant) -> int:
+    """Into how many steps a millisecond must be cut so that no step exceeds a time constant of the plant."""
+    fastest = min((constant.seconds for constant in plant.meaning.time_constants), default=STEP)
+    if fastest < STEP / FINEST:
+        return 1  # no step of ours resolves it; the check of the step says so by name
+    return max(1, int(np.ceil(STEP / fastest - 1e-9)))
 
 
 def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray) -> np.ndarray:

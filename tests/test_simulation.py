@@ -187,7 +187,7 @@ def test_a_mount_too_stiff_for_the_step():
     slowest = 600 * 2 / 3
     plant = chapter3("nonlinear", rear__damper__mount__rate=2e6)
     with pytest.raises(InputError) as caught:
-        simulate(plant, SHORT)
+        simulate(plant, SHORT, step=1e-3)
     error = caught.value
     assert error.key == "rear.damper.mount.rate"
     assert error.source == "chapter3.toml"
@@ -195,8 +195,19 @@ def test_a_mount_too_stiff_for_the_step():
     allowed = float(str(error).split("at most ")[1].split(" N/m")[0])
     assert allowed == pytest.approx(2.785 * slowest / 1e-3, rel=5e-3)
     fits = chapter3("nonlinear", rear__damper__mount__rate=0.99 * allowed)
-    assert np.isfinite(simulate(fits, SHORT)["body_acceleration"]).all()
+    assert np.isfinite(simulate(fits, SHORT, step=1e-3)["body_acceleration"]).all()
     assert np.abs(simulate(plant, SHORT, step=0.4e-3)["body_acceleration"]).max() < 20
+
+
+def test_the_step_follows_the_stiffest_mount():
+    """Without a given step none exceeds a time constant, and the records stay a millisecond apart."""
+    plant = chapter3("nonlinear", rear__damper__mount__rate=2e6)
+    run = simulate(plant, SHORT)
+    assert run.meta["step"] == pytest.approx(0.2e-3)
+    assert run.step == pytest.approx(1e-3)
+    hopeless = chapter3("nonlinear", rear__damper__mount__rate=4e9)
+    with pytest.raises(InputError, match=r"4e\+09 N/m is too stiff for a step of 1 ms"):
+        simulate(hopeless, SHORT)
 
 
 @pytest.mark.parametrize("preload", [500.0, 20000.0])

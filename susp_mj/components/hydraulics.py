@@ -55,6 +55,8 @@ class _Single(Resistance):
 class Laminar(_Single):
     """A round channel in laminar flow: ``Δp = 8 η l Q/(π r⁴)`` (Hagen-Poiseuille); a force in proportion to speed.
 
+    Holds while ``2 ρ Q/(π r η)`` (Reynolds) stays below about 2300; several fine channels keep it there.
+
     Attributes:
         length: l [m].
         radius: r [m].
@@ -102,32 +104,40 @@ class Orifice(_Single):
 
 @dataclass(frozen=True)
 class BlowOff(_Single):
-    """A preloaded valve, shut up to its opening pressure, then an orifice: ``Δp = p0 + ρ/2 (Q/(α A))²``.
+    """A preloaded valve: shut up to p0, then its plate lifts in proportion to the pressure until it is fully open at p1.
 
-    The static force of its spring over the area of its plate is p0, the second term the dynamic share. It needs a channel in
-    parallel that is always open (a bleed).
+    ``Q = α A (Δp - p0)/(p1 - p0) sqrt(2 Δp/ρ)`` from p0 to p1, an orifice of area A above. The preload of its spring over
+    the area of its plate is p0, the spring's rate decides p1. It needs a channel in parallel that is always open (a bleed).
 
     Attributes:
         opening_pressure: p0 [Pa].
-        area: A [m²] of the open valve.
+        full_pressure: p1 [Pa], above p0.
+        area: A [m²] when fully open.
         coefficient: flow coefficient α.
         density: ρ [kg/m³] of the oil.
     """
 
     opening_pressure: float = _quantity("Pa")
+    full_pressure: float = _quantity("Pa")
     area: float = _quantity("m²")
     coefficient: float = _quantity("", 0.7)
     density: float = _quantity("kg/m³", 860.0)
 
-    @property
-    def _open(self) -> Orifice:
-        return Orifice(self.area, self.coefficient, self.density)
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.full_pressure <= self.opening_pressure:
+            message = f"{self.full_pressure:g} Pa is not allowed; it must exceed the opening pressure of {self.opening_pressure:g} Pa"
+            raise InputError(message, key="full_pressure")
 
     def pressure(self, flow: float) -> float:
-        return self.opening_pressure + self._open.pressure(flow)
+        if flow <= 0:
+            return self.opening_pressure
+        wide = Orifice(self.area, self.coefficient, self.density).pressure(flow)
+        return wide if wide >= self.full_pressure else _inverse(self.flow, flow, self.full_pressure)
 
     def flow(self, pressure: float) -> float:
-        return self._open.flow(pressure - self.opening_pressure)
+        opened = (pressure - self.opening_pressure) / (self.full_pressure - self.opening_pressure)
+        return min(max(opened, 0.0), 1.0) * Orifice(self.area, self.coefficient, self.density).flow(pressure)
 
 
 class _Several(Resistance):

@@ -46,7 +46,7 @@ def tyre(radius: float) -> Surface:
     tread = [(radius - depth, place + edge) for place in (0.045, 0.0, -0.045) for edge, depth in _groove()]
     left = [*outer, *shoulder]
     right = [(r, -w) for r, w in reversed(left)]
-    return _surface(_revolved([*left, *tread, *right]))
+    return surface_of(_revolved([*left, *tread, *right]))
 
 
 def sidewall_marks(radius: float, count: int = 3) -> Surface:
@@ -67,7 +67,7 @@ def sidewall_marks(radius: float, count: int = 3) -> Surface:
             arc = _revolved(outline if side < 0 else outline[::-1], angle=0.42)
             arc.apply_transform(trimesh.transformations.rotation_matrix(2 * np.pi * k / count, [0, 1, 0]))
             parts.append(arc)
-    return _joined(parts)
+    return joined(parts)
 
 
 def rim(spokes: int = 5) -> Surface:
@@ -95,7 +95,7 @@ def rim(spokes: int = 5) -> Surface:
             spoke = _spoke(lean)
             spoke.apply_transform(turn)
             parts.append(spoke)
-    return _joined(parts)
+    return joined(parts)
 
 
 def wheel_bolts(count: int = 5) -> Surface:
@@ -106,13 +106,13 @@ def wheel_bolts(count: int = 5) -> Surface:
         angle = 2 * np.pi * (k + 0.5) / count
         bolt.apply_translation([0.045 * np.cos(angle), 0.0, 0.045 * np.sin(angle)])
         parts.append(bolt)
-    return _joined(parts)
+    return joined(parts)
 
 
 def brake_disc() -> Surface:
     """Brake disc with its bell, behind the spokes."""
     outer, inner = 0.168, 0.085
-    return _surface(_revolved([(inner, 0.005), (outer, 0.005), (outer, 0.030), (inner, 0.030)]))
+    return surface_of(_revolved([(inner, 0.005), (outer, 0.005), (outer, 0.030), (inner, 0.030)]))
 
 
 def coil(length: float, radius: float, wire: float, turns: float = 6.0) -> Surface:
@@ -128,7 +128,7 @@ def coil(length: float, radius: float, wire: float, turns: float = 6.0) -> Surfa
     climb = np.clip((angle / (2 * np.pi) - 0.6) / (turns - 1.2), 0.0, 1.0)
     climb = 0.9 * climb + 0.1 * climb**2 * (3 - 2 * climb)
     centre = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), wire + climb * (length - 2 * wire)])
-    return _surface(_tube(centre, wire, 12))
+    return surface_of(tube(centre, wire, 12))
 
 
 def slab(x: np.ndarray, low: np.ndarray, high: np.ndarray, *, near: float, far: float, rounding: float) -> Surface:
@@ -144,7 +144,7 @@ def slab(x: np.ndarray, low: np.ndarray, high: np.ndarray, *, near: float, far: 
     for station, bottom, top in zip(x, low, high, strict=True):
         rings.append([(station, y, z) for y, z in _rounded_rectangle(near, far, bottom, top, rounding)])
     shrunk = [_inset(ring, rounding, direction) for ring, direction in ((rings[0], -1.0), (rings[-1], 1.0))]
-    return _surface(_loft(np.array([*shrunk[0][::-1], *rings, *shrunk[1]])))
+    return surface_of(loft(np.array([*shrunk[0][::-1], *rings, *shrunk[1]])))
 
 
 def fender(*, length: float, sill: float, top: float, arch: float, slot: float, near: float, far: float) -> Surface:
@@ -185,8 +185,8 @@ def arch_lip(*, sill: float, arch: float, slot: float, near: float, far: float) 
             ]
             for a in np.linspace(np.arcsin((slot + 0.01) / arch), np.arctan2(reach, sill), 40)
         ]
-        parts.append(_loft(np.array(rings)))
-    return _joined(parts)
+        parts.append(loft(np.array(rings)))
+    return joined(parts)
 
 
 def _bonnet(x: np.ndarray, length: float, top: float) -> np.ndarray:
@@ -217,22 +217,23 @@ def road(
         x = np.linspace(start, end, max(int((end - start) / 0.05), 1) + 1)
         z = height(x) + top
         rings = np.array([[(a, near, bottom), (a, far, bottom), (a, far, b), (a, near, b)] for a, b in zip(x, z, strict=True)])
-        strips.append(_loft(rings))
-    return _joined(strips)
+        strips.append(loft(rings))
+    return joined(strips)
 
 
 def _groove() -> Profile:
     return ((0.006, 0.0), (0.0045, 0.009), (-0.0045, 0.009), (-0.006, 0.0))
 
 
-def _joined(parts: Sequence[trimesh.Trimesh]) -> Surface:
+def joined(parts: Sequence[trimesh.Trimesh]) -> Surface:
     """Several meshes as one."""
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
     faces = [np.asarray(part.faces) + start for part, start in zip(parts, starts, strict=False)]
     return Surface(np.concatenate([np.asarray(part.vertices) for part in parts]), np.concatenate(faces).astype(np.int32))
 
 
-def _surface(mesh: trimesh.Trimesh) -> Surface:
+def surface_of(mesh: trimesh.Trimesh) -> Surface:
+    """A trimesh mesh as plain arrays."""
     return Surface(np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces, dtype=np.int32))
 
 
@@ -266,7 +267,7 @@ def _spoke(lean: float) -> trimesh.Trimesh:
     return mesh
 
 
-def _tube(centre: np.ndarray, radius: float, sides: int) -> trimesh.Trimesh:
+def tube(centre: np.ndarray, radius: float, sides: int) -> trimesh.Trimesh:
     """Round wire along a line of (n, 3) points."""
     along = np.gradient(centre, axis=0)
     along /= np.linalg.norm(along, axis=1)[:, None]
@@ -274,10 +275,10 @@ def _tube(centre: np.ndarray, radius: float, sides: int) -> trimesh.Trimesh:
     across /= np.linalg.norm(across, axis=1)[:, None]
     upward = np.cross(across, along)
     angle = np.linspace(0.0, 2 * np.pi, sides, endpoint=False)[None, :, None]
-    return _loft(centre[:, None, :] + radius * (np.cos(angle) * across[:, None, :] + np.sin(angle) * upward[:, None, :]))
+    return loft(centre[:, None, :] + radius * (np.cos(angle) * across[:, None, :] + np.sin(angle) * upward[:, None, :]))
 
 
-def _loft(rings: np.ndarray) -> trimesh.Trimesh:
+def loft(rings: np.ndarray) -> trimesh.Trimesh:
     """Closed surface through (n, k, 3) rings of points, its ends capped, with outward faces."""
     import trimesh
 

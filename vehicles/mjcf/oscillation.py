@@ -347,31 +347,39 @@ def _lateral(
 ) -> float | None:
     """Lateral acceleration a_y of the sprung mass (positive in a left turn), and gravity on the rolling body.
 
-    The inertial force ``-m a_y`` rolls the body about the roll axis with ``m a_y h``, positive; links carry the rest
-    straight to the wheels: ``m_axle a_y z_rc / t`` up on the left, down on the right. Returns m h [kg m].
+    The inertial force ``-m a_y`` at the centre of gravity rolls the body about the ground with ``m a_y h_cg``. The links
+    carry ``V = m_axle a_y z_rc / t`` between body and wheel, up on the left wheel and down on the right, which leaves the
+    body ``m a_y h`` about the roll axis, h = h_cg - z_rc. Returns m h [kg m].
     """
     centre = vehicle.cg_height(load)
     if "roll" not in position or centre is None or any(corner.axle.roll_centre_height is None for corner in corners):
         return None
-    lever = 0.0
+    lever = moment = 0.0
     for corner in corners:
         height = corner.axle.roll_centre_height or 0.0
         mass = 2 * vehicle.corner_mass(corner.axle_name, load)
         lever += mass / 2 * (centre - height)
+        moment += mass / 2 * (centre if not topology.sprung_wheels else centre - height)
         lift = corner.side * mass * height / (corner.axle.track or 1.0)
-        if lift != 0.0:
-            _link_force(builder, topology, corner, lift)
+        if lift == 0.0:
+            continue
+        if topology.sprung_wheels:  # on the wheel only; its reaction is in the body's moment
+            builder.motor_on(corner.name("link"), corner.name("tyre"), "lateral_acceleration", -lift)
+        else:  # between wheel and body, so that the road's push includes it
+            _link(builder, corner, corners, lift / (_lever(corner.axle) if topology.rigid_axle else 1.0))
     builder.force("overturning", Overturning(moment=lever * GRAVITY), position["roll"])
-    builder.motor("roll_moment", position["roll"], "lateral_acceleration", lever)
+    builder.motor("roll_moment", position["roll"], "lateral_acceleration", moment)
     return lever
 
 
-def _link_force(builder: ModelBuilder, topology: Topology, corner: _Corner, lift: float) -> None:
-    """Vertical force of the links on a wheel, per unit of lateral acceleration."""
-    if topology.sprung_wheels:
-        builder.motor_on(corner.name("link"), corner.name("tyre"), "lateral_acceleration", -lift)
-    else:
-        builder.add_terms("wheel_load", corner.station, ("input", "lateral_acceleration", -lift))
+def _link(builder: ModelBuilder, corner: _Corner, corners: Sequence[_Corner], lift: float) -> None:
+    """Vertical force of the links between a massless wheel and the body, per unit of lateral acceleration."""
+    name = corner.name("link")
+    builder.motor_on(name, corner.name("spring"), "lateral_acceleration", lift)
+    for other in corners:
+        share = builder.share("wheel_load", other.station, corner.name("spring"))
+        if share != 0.0:
+            builder.add_terms("wheel_load", other.station, ("actuator_force", name, share))
 
 
 def _longitudinal(builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, mass: _Mass, position: dict[str, Form]) -> None:

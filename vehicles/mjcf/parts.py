@@ -157,6 +157,11 @@ class ModelBuilder:
             if (output.quantity, output.station) == (quantity, station):
                 self.outputs[i] = Output(quantity, station, (*output.terms, *terms))
 
+    def share(self, quantity: str, station: str, actuator: str) -> float:
+        """Weight of an actuator's force in a declared channel."""
+        (output,) = (each for each in self.outputs if (each.quantity, each.station) == (quantity, station))
+        return sum(weight for source, name, weight in output.terms if (source, name) == ("actuator_force", actuator))
+
     def travel(self, station: str, axle: Axle, axle_name: str) -> None:
         """Declare the travel of a station's suspension and the time constant of its damper."""
         stops = axle.spring.stops
