@@ -11,6 +11,11 @@ import pytest
 
 from evaluation import video
 from evaluation.animation import Clip, can_render, render, render_video
+from evaluation.animation.car_hud import liveliest_angle, plan
+from evaluation.animation.car_pose import WHEEL_RADIUS as CAR_WHEEL_RADIUS
+from evaluation.animation.car_pose import CarPose, Layout
+from evaluation.animation.car_scene import place as place_car
+from evaluation.animation.car_shapes import car_spec
 from evaluation.animation.clip import tyre_deflection
 from evaluation.animation.quarter_scene import place, pose_at, stretch_coil
 from evaluation.animation.quarter_shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
@@ -18,6 +23,8 @@ from evaluation.animation.window import LONGEST_CLIP, window_of
 from evaluation.colours import COLOURS, rgb
 from manoeuvres import Bump, RoadStep, VerticalSweep
 from susp_mj import InputError, SuspMjError, simulate
+from susp_mj.names import channel_name
+from susp_mj.run import Run, described
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
@@ -56,6 +63,12 @@ def decoded(path):
     return np.frombuffer(raw, np.uint8).reshape(-1, SIZE[1], SIZE[0], 3)
 
 
+def alarm(frame, side):
+    """Red pixels at the foot of the left (0) or right (1) scene."""
+    panel = frame[112:130, side * 160 : side * 160 + 140].astype(int)
+    return int(((panel[..., 0] > 170) & (panel[..., 1] < 90) & (panel[..., 2] < 90)).sum())
+
+
 def ffmpeg(*arguments):
     return subprocess.run([video.ffmpeg_program() or "ffmpeg", *arguments], capture_output=True, check=False)
 
@@ -83,10 +96,6 @@ def test_frames_change_in_both_scenes(film):
 
 
 def test_no_contact_is_red_at_the_right_instant_and_side(film, clips):
-    def alarm(frame, side):
-        panel = frame[112:130, side * 160 : side * 160 + 140].astype(int)
-        return int(((panel[..., 0] > 170) & (panel[..., 1] < 90) & (panel[..., 2] < 90)).sum())
-
     times = window_of([clip.run for clip in clips], FPS, None).times
     lifted = [k for k in range(len(times)) if alarm(film[2][k], 0) > 60]
     assert times[lifted] == pytest.approx([0.30, 0.32, 0.34]), (
@@ -220,3 +229,157 @@ def test_values_that_are_not_allowed(clips, tmp_path, values, text):
         render_video(clips, tmp_path / "bump.mp4", **values)
     with pytest.raises(InputError, match="from 1 to 8"):
         render_video([], tmp_path / "bump.mp4")
+
+
+# ---- cars with several wheels ----------------------------------------------------------------------------------------
+
+PLACES = {
+    "full": {"fl": (0.0, 0.7), "fr": (0.0, -0.7), "rl": (-3.0, 0.65), "rr": (-3.0, -0.65)},
+    "axle": {"rl": (0.0, 0.7), "rr": (0.0, -0.7)},
+    "pitch": {"front": (0.0, 0.0), "rear": (-3.0, 0.0)},
+}
+TYRE_RATE, SPEED = 2e5, 20.0
+
+
+def car_run(kind="full", *, sprung=True, speed=SPEED, lifted=(), phase=0.0):
+    """A car that heaves, pitches and rolls over tracks that differ: what a simulation would leave behind, made up.
+
+    `lifted`: the right rear wheel is held off the road from the first to the second of these times [s].
+    """
+    time = np.arange(0.0, 1.6, 0.002)
+    places = PLACES[kind]
+    cg_x = 0.0 if kind == "axle" else -1.4
+    heave, pitch, roll = (
+        a * np.sin(w * time + phase) for a, w in ((0.03, 8.0), (0.02 * (kind != "axle"), 6.0), (0.04 * (kind != "pitch"), 7.0))
+    )
+    channels = {
+        "body_displacement": described("body_displacement", heave),
+        "body_acceleration": described("body_acceleration", -64 * heave),
+    }
+    channels |= {"pitch_angle": described("pitch_angle", pitch)} if kind != "axle" else {}
+    channels |= {"roll_angle": described("roll_angle", roll)} if kind != "pitch" else {}
+    for station, (x, y) in places.items():
+        distance = 10.0 * (time + (x / speed if speed else 0.0) - 0.3)
+        road = np.where((distance > 0) & (distance < 2 * np.pi), 0.02 * (1 + 0.8 * np.sign(y)) * (1 - np.cos(distance)), 0.0)
+        off = (time >= lifted[0]) & (time < lifted[1]) if lifted and station == "rr" else np.zeros(len(time), bool)
+        load = np.where(off, 0.0, 4000.0 + 1500 * np.sin(9 * time + x))
+        wheel = road - (load - 4000.0) / TYRE_RATE + 0.03 * off if sprung else road
+        values = {"wheel_load": load, "road_height": road, "suspension_deflection": wheel - (heave + roll * y - pitch * (x - cg_x))}
+        values |= {"wheel_displacement": wheel} if sprung else {}
+        channels |= {channel_name(station, quantity): described(quantity, value, station) for quantity, value in values.items()}
+    manoeuvre = {"kind": "bump", "speed": speed} if speed else {"kind": "lateral_force"}
+    return Run(time, channels, {"model": kind, "manoeuvre": manoeuvre, "places": places, "facts": {"cg_x": cg_x}})
+
+
+def drawn_car(run):
+    layout = Layout.of(run)
+    model = car_spec(run, layout, COLOURS[0], SIZE, window_of([run], FPS, None)).compile()
+    return layout, model, mujoco.MjData(model)
+
+
+def drawn_vertices(model, data, geom, mesh=None):
+    """(n, 3) vertices of a mesh where the picture shows them [m]."""
+    mesh, geom = model.mesh(mesh or geom), model.geom(geom).id
+    vertices = model.mesh_vert[mesh.vertadr[0] : mesh.vertadr[0] + mesh.vertnum[0]]
+    return vertices @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+
+
+@pytest.mark.parametrize("sprung", [False, True])
+@pytest.mark.parametrize("kind", list(PLACES))
+def test_wheels_and_spring_ends_of_every_corner_follow_the_channels(kind, sprung):
+    run = car_run(kind, sprung=sprung)
+    layout, model, data = drawn_car(run)
+    for time in (0.0, 0.2, 0.5, 0.9):
+        pose = CarPose.of(run, layout, time)
+        place_car(model, data, pose)
+
+        def now(quantity, time=time):
+            return float(np.interp(time, run.time, run[quantity])) if quantity in run else 0.0
+
+        for station, (x, y) in layout.places.items():
+            wheel = now(channel_name(station, "wheel_displacement" if sprung else "road_height"))
+            assert data.body(f"{station}_wheel").xpos == pytest.approx([x, y, CAR_WHEEL_RADIUS + wheel])
+            foot, head = data.body(f"{station}_foot").xpos, data.body(f"{station}_head").xpos
+            _, at_y, rest = layout.mount(station, layout.strut.head)
+            lifted = now("body_displacement") + at_y * now("roll_angle") - (x - layout.cg[0]) * now("pitch_angle")
+            assert head[2] - rest == pytest.approx(lifted, abs=2e-3), "of second order in the angles"
+            coil = drawn_vertices(model, data, f"{station}_coil", "coil")
+            along = (coil - foot) @ (head - foot) / np.linalg.norm(head - foot)
+            assert along.min() == pytest.approx(layout.strut.seat, abs=1e-3), "the coil stands on its lower seat"
+            assert along.max() == pytest.approx(np.linalg.norm(head - foot), abs=1e-3), "and reaches the upper one"
+            shortened = layout.strut.coil - pose.coil_length(station)
+            inboard = layout.strut.inset * (abs(now("roll_angle")) + abs(pose.camber))
+            assert shortened == pytest.approx(now(channel_name(station, "suspension_deflection")), abs=2e-3 + inboard)
+
+
+def test_positive_roll_lifts_the_left_side_and_positive_pitch_lowers_the_nose():
+    layout, level = Layout.of(car_run()), dict.fromkeys(PLACES["full"], 0.0)
+    rolled = CarPose(layout, 0.0, 0.0, 0.03, level, level, level, 0.0)
+    assert rolled.strut_head("fl")[2] > rolled.strut_head("fr")[2] + 0.02
+    pitched = CarPose(layout, 0.0, 0.03, 0.0, level, level, level, 0.0)
+    assert pitched.strut_head("fl")[2] < pitched.strut_head("rl")[2] - 0.08
+
+
+@pytest.mark.parametrize("kind", list(PLACES))
+def test_every_wheel_stands_on_its_own_track(kind):
+    run = car_run(kind)
+    layout, model, data = drawn_car(run)
+    for time in (0.1, 0.45, 0.62):
+        place_car(model, data, CarPose.of(run, layout, time))
+        for station, (x, y) in layout.places.items():
+            half = drawn_vertices(model, data, f"{'left' if layout.side(station) > 0 else 'right'}_asphalt")
+            upper = half[(half[:, 2] > -0.05) & (np.abs(half[:, 0] - x) < 0.2)]
+            upper = upper[np.argsort(upper[:, 0])]
+            assert half[:, 1].min() - 1e-9 <= y <= half[:, 1].max() + 1e-9
+            height = float(np.interp(time, run.time, run[channel_name(station, "road_height")]))
+            assert np.interp(x, upper[:, 0], upper[:, 2]) == pytest.approx(height, abs=1e-3)
+            radius = CAR_WHEEL_RADIUS + tyre_deflection(run, station)
+            bottom = data.body(f"{station}_wheel").xpos[2] - radius
+            squeezed = float(np.interp(time, run.time, run[channel_name(station, "wheel_load")])) / TYRE_RATE
+            assert height - bottom == pytest.approx(squeezed, abs=2e-4)
+
+
+def test_what_a_run_does_not_say_is_taken_from_a_usual_car():
+    run = car_run()
+    layout = Layout.of(Run(run.time, run.channels, {}))
+    assert layout.cg[0] == pytest.approx((layout.front + layout.rear) / 2) and layout.front > layout.rear
+    assert [layout.side(station) for station in layout.places] == [1, -1, 1, -1]
+    assert Layout.of(car_run("pitch")).one_sided and Layout.of(car_run("axle")).one_axle
+
+
+def test_load_bars_lie_as_the_wheels_do():
+    assert plan(["fl", "fr", "rl", "rr"]) == {"fl": (0, 0), "fr": (0, 1), "rl": (1, 0), "rr": (1, 1)}
+    assert plan(["rl", "rr"]) == {"rl": (0, 0), "rr": (0, 1)}
+    assert plan(["front", "rear"]) == {"front": (0, 0), "rear": (1, 0)}
+
+
+def test_trace_shows_the_angle_that_moves_more():
+    runs = {kind: Clip(kind, car_run(kind)) for kind in PLACES}
+    whole = window_of([clip.run for clip in runs.values()], FPS, None)
+    assert [liveliest_angle([clip], whole) for clip in runs.values()] == ["roll_angle", "roll_angle", "pitch_angle"]
+    still = car_run("axle")
+    still = Run(still.time, {**still.channels, "roll_angle": described("roll_angle", 0 * still.time)}, still.meta)
+    assert liveliest_angle([Clip("still", still)], whole) is None
+
+
+@pytest.mark.parametrize("speed", [SPEED, 0.0])
+def test_video_of_cars_shows_which_wheel_lifts_and_when(drawing, tmp_path, speed):
+    clips = [Clip("lifts", car_run(speed=speed, lifted=(0.5, 0.7))), Clip("holds", car_run(speed=speed, phase=1.0))]
+    path = render_video(clips, tmp_path / "car.mp4", size=SIZE, fps=FPS, playback=1.0)
+    frames, times = decoded(path), window_of([clip.run for clip in clips], FPS, 1.0).times
+    assert len(frames) == len(times)
+    lifted = np.array([alarm(frame, 0) > 60 for frame in frames])
+    expected = (times >= 0.5) & (times - 0.1 < 0.698)  # a frame shows what happened since the last
+    assert (lifted == expected).all() and lifted.any() and not lifted.all() and all(alarm(frame, 1) == 0 for frame in frames)
+    scene = frames.astype(float)[:, 15:128, :120]
+    assert np.abs(np.diff(scene, axis=0)).mean(axis=(1, 2, 3)).min() > 0.3
+
+
+def test_runs_that_cannot_be_shown_together_or_at_all(clips, tmp_path):
+    with pytest.raises(InputError, match="'linear' has one wheel and 'car' several"):
+        render_video([clips[0], Clip("car", car_run())], tmp_path / "mixed.mp4")
+    run = car_run()
+    poor = Run(run.time, {name: channel for name, channel in run.channels.items() if name != "rl_road_height"}, run.meta)
+    with pytest.raises(InputError, match=r"'poor': .*full has no channel rl_road_height"):
+        render_video([Clip("poor", poor)], tmp_path / "poor.mp4")
+    assert list(tmp_path.iterdir()) == []

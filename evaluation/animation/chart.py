@@ -9,24 +9,35 @@ import numpy as np
 
 from ..colours import COLOURS, LIFTED, rgb
 from ..ride import CONTACT_LOST
-from .clip import Clip
 from .layout import INK, PAPER, RULE, SOFT, Box, mixed, spans, ticks, typeface
 from .window import Window
 
+Signal = tuple[np.ndarray, np.ndarray]
+"""(n,) times [s] and (n,) values."""
+
 
 class Chart:
-    """Time traces of one quantity of all runs; what is past is drawn in full colour, what is to come faint."""
+    """Time traces of one quantity of all runs; what is past is drawn in full colour, what is to come faint.
 
-    def __init__(self, clips: Sequence[Clip], quantity: str, title: str, factor: float, window: Window, box: Box, scale: float) -> None:
+    Args:
+        signals: one for each configuration.
+        title: quantity and unit.
+        window: stretch of the runs.
+        box: where it stands in the frame.
+        scale: of all lengths.
+        loads: the values are wheel loads; stretches without contact are marked red.
+    """
+
+    def __init__(self, signals: Sequence[Signal], title: str, window: Window, box: Box, scale: float, *, loads: bool = False) -> None:
         self.box, self.window, self.scale = box, window, scale
         self.plot = Box(round(46 * scale), round(27 * scale), box.width - round(60 * scale), box.height - round(50 * scale))
         grid = np.linspace(window.start, window.times[-1], max(self.plot.width * 2, 2))
-        self.traces = [np.interp(grid, clip.run.time, clip.run[quantity]) * factor for clip in clips]
+        self.traces = [np.interp(grid, time, values) for time, values in signals]
         self.grid, self.title = grid, title
         low, high = min(0.0, *(float(t.min()) for t in self.traces)), max(0.0, *(float(t.max()) for t in self.traces))
         margin = 0.06 * max(high - low, 1e-3)
         self.low, self.high = low - (margin if low < 0 else 0.35 * margin), high + margin
-        self.lifts = [t <= CONTACT_LOST for t in self.traces] if quantity == "wheel_load" else []
+        self.lifts = [t <= CONTACT_LOST for t in self.traces] if loads else []
         self.faint, self.full = self._layer(0.33), self._layer(1.0)
 
     def x(self, time: float | np.ndarray) -> Any:

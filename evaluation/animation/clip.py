@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
+from susp_mj.errors import InputError
+from susp_mj.names import channel_name
 from susp_mj.run import Run
 
 from ..ride import CONTACT_LOST
+
+_BODY = ("body_displacement", "body_acceleration")
+_WHEEL = ("suspension_deflection", "wheel_load", "road_height")
 
 
 @dataclass(frozen=True)
@@ -19,22 +26,64 @@ class Clip:
     run: Run
 
 
-def at(run: Run, quantity: str, time: float) -> float:
-    """Value of a channel at a time [s], linear between the records."""
+def kind_of(clips: Sequence[Clip]) -> Literal["quarter", "car"]:
+    """Whether runs show one wheel each or several.
+
+    Raises:
+        InputError: a run lacks channels that the picture needs, or the runs are of both kinds.
+    """
+    for clip in clips:
+        needed = [*_BODY, *(channel_name(station, quantity) for station in stations_of(clip.run) or [""] for quantity in _WHEEL)]
+        missing = [name for name in needed if name not in clip.run]
+        if missing:
+            model = clip.run.meta.get("model", "the run")
+            raise InputError(f"'{clip.label}': only runs of oscillation models can be shown; {model} has no channel {missing[0]}")
+    quarters = [stations_of(clip.run) == [""] for clip in clips]
+    if any(quarters) and not all(quarters):
+        one, other = clips[quarters.index(True)].label, clips[quarters.index(False)].label
+        raise InputError(f"'{one}' has one wheel and '{other}' several; show them in two videos", source="video")
+    return "quarter" if all(quarters) else "car"
+
+
+def stations_of(run: Run) -> list[str]:
+    """Stations of the wheels in the car's order; an empty name for the only wheel of a quarter car."""
+    return list(run.stations("wheel_load"))
+
+
+def at(run: Run, quantity: str, time: float, default: float | None = None) -> float:
+    """Value of a channel at a time [s], linear between the records; `default`, if given, where the run has no such channel."""
+    if default is not None and quantity not in run:
+        return default
     return float(np.interp(time, run.time, run[quantity]))
+
+
+def wheel_height(station: str, run: Run) -> str:
+    """Channel that says how high a wheel is: its own, or the road's for a massless wheel, which stands on it."""
+    name = channel_name(station, "wheel_displacement")
+    return name if name in run else channel_name(station, "road_height")
 
 
 def speed_of(run: Run) -> float:
     """Driving speed [m/s]; 0 on a test rig."""
-    return float(run.meta.get("manoeuvre", {}).get("speed", 0.0))
+    speed = run.meta.get("manoeuvre", {}).get("speed")
+    return float(speed) if isinstance(speed, (int, float)) else 0.0
 
 
-def tyre_deflection(run: Run) -> float:
-    """How far the tyre is pressed in by the static load [m], from the slope of wheel load over deflection; 0 for a rigid wheel."""
-    if "wheel_displacement" not in run:
+def slope_at(run: Run, station: str, time: float) -> float:
+    """Slope of the road under a wheel, rising forwards positive; 0 on a test rig."""
+    road, speed = channel_name(station, "road_height"), speed_of(run)
+    if speed <= 0:
         return 0.0
-    load, squeeze = run["wheel_load"], run["road_height"] - run["wheel_displacement"]
+    return (at(run, road, time + run.step) - at(run, road, time - run.step)) / (2 * run.step * speed)
+
+
+def tyre_deflection(run: Run, station: str = "") -> float:
+    """How far the tyre is pressed in in the design position [m], from the slope of wheel load over deflection; 0 for a rigid wheel."""
+    height = wheel_height(station, run)
+    if not height.endswith("wheel_displacement"):
+        return 0.0
+    load, squeeze = run[channel_name(station, "wheel_load")], run[channel_name(station, "road_height")] - run[height]
     held = load > CONTACT_LOST
     spread = squeeze[held] - squeeze[0]
     rate = float(spread @ (load[held] - load[0])) / max(float(spread @ spread), 1e-12)
-    return float(np.clip(load[0] / rate, 0.0, 0.05)) if rate > 0 else 0.0
+    return float(np.clip(load[0] / rate - squeeze[0], 0.0, 0.06)) if rate > 0 else 0.0

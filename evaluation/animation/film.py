@@ -12,18 +12,24 @@ from susp_mj.run import Run
 
 from ..colours import COLOURS
 from ..video import Encoder
-from .clip import Clip
-from .hud import Hud
+from .car_hud import CarHud
+from .car_scene import CarScene
+from .clip import Clip, kind_of
+from .quarter_hud import QuarterHud
 from .quarter_scene import QuarterScene
 from .window import Window, window_of
+
+KINDS = {"quarter": (QuarterScene, QuarterHud), "car": (CarScene, CarHud)}
+"""Scene, and texts around it, of each kind of run that `kind_of` tells apart."""
 
 
 def frames(clips: Sequence[Clip], window: Window, size: tuple[int, int]) -> Iterator[np.ndarray]:
     """(height, width, 3) frames one by one; needs a working OpenGL in this process."""
     from PIL import Image
 
-    hud = Hud(clips, window, size)
-    scenes = [QuarterScene(clip.run, COLOURS[k], (hud.boxes[k].width, hud.boxes[k].height), window) for k, clip in enumerate(clips)]
+    scene_of, hud_of = KINDS[kind_of(clips)]
+    hud = hud_of(clips, window, size)
+    scenes = [scene_of(clip.run, COLOURS[k], (hud.boxes[k].width, hud.boxes[k].height), window) for k, clip in enumerate(clips)]
     try:
         for time in window.times.tolist():
             frame = hud.background.copy()

@@ -1,12 +1,13 @@
-"""Texts, load bars and traces around the scenes."""
+"""Texts and traces around the scenes: what all kinds of cars share."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
+from susp_mj.names import channel_name
 from susp_mj.run import Run
 
 from ..colours import COLOURS, LIFTED, rgb
@@ -14,26 +15,37 @@ from ..ride import CONTACT_LOST
 from .chart import Chart
 from .clip import Clip, at
 from .layout import BAND, HEADER, INK, LAYOUT_HEIGHT, PAPER, SOFT, STRIP, Box, mixed, panels, shortened, typeface
-from .titles import describe, playback_text
+from .titles import describe, playback_text, signed
 from .window import Window
 
 
 class Hud:
-    """Everything in a frame that is not a scene: header, labels, numbers, load bars and traces."""
+    """Everything in a frame that is not a scene: header, labels, numbers, load bars and traces.
+
+    A kind of car gives its own `charts` and `gauges`.
+    """
+
+    aside: ClassVar[float] = 146.0
+    """Width beside a label that the gauges need [px at the layout's height]."""
 
     def __init__(self, clips: Sequence[Clip], window: Window, size: tuple[int, int]) -> None:
         self.clips, self.window, self.size = clips, window, size
         self.scale = size[1] / LAYOUT_HEIGHT
         self.boxes = panels(len(clips), size)
-        self.highest_load = max(float(clip.run["wheel_load"].max()) for clip in clips)
+        loads = [load for clip in clips for load in clip.run.stations("wheel_load").values()]
+        self.highest_load = max(float(load.max()) for load in loads)
         strip = round(STRIP * self.scale)
         half, top = size[0] // 2, size[1] - strip
-        left, right = Box(0, top, half, strip), Box(half, top, size[0] - half, strip)
-        self.charts = [
-            Chart(clips, "body_acceleration", "Body acceleration in m/s²", 1.0, window, left, self.scale),
-            Chart(clips, "wheel_load", "Wheel load in kN", 1e-3, window, right, self.scale),
-        ]
+        self.traces = self.charts(Box(0, top, half, strip), Box(half, top, size[0] - half, strip))
         self.background = self._background()
+
+    def charts(self, left: Box, right: Box) -> list[Chart]:
+        """Traces under the scenes."""
+        raise NotImplementedError
+
+    def gauges(self, draw: Any, run: Run, box: Box, time: float) -> None:
+        """Draw what was measured onto the scene of one configuration."""
+        raise NotImplementedError
 
     def _background(self) -> Any:
         from PIL import Image, ImageDraw
@@ -60,62 +72,50 @@ class Hud:
         s = self.scale
         draw.text((self._clock_right, HEADER * s / 2), f"t = {time:.3f} s".replace("-", "−"), INK, typeface(20 * s, bold=True), anchor="rm")
         for number, (clip, box) in enumerate(zip(self.clips, self.boxes, strict=True)):
-            self._panel(draw, clip, rgb(COLOURS[number]), box, time)
-        for chart in self.charts:
+            self._label(draw, clip, rgb(COLOURS[number]), box, time)
+            self.gauges(draw, clip.run, box, time)
+        for chart in self.traces:
             chart.draw(frame, time)
 
-    def _panel(self, draw: Any, clip: Clip, colour: tuple[int, int, int], box: Box, time: float) -> None:
+    def _label(self, draw: Any, clip: Clip, colour: tuple[int, int, int], box: Box, time: float) -> None:
         s, run = self.scale, clip.run
         left, top = box.left + 16 * s, box.top + 14 * s
         font = typeface(16 * s, bold=True)
-        label = shortened(clip.label, font, box.width - 146 * s)
+        label = shortened(clip.label, font, box.width - self.aside * s)
         draw.rounded_rectangle([left, top, left + font.getlength(label) + 24 * s, top + 29 * s], 8 * s, colour)
         draw.text((left + 12 * s, top + 14.5 * s), label, (255, 255, 255), font, anchor="lm")
         draw.text((left + 2 * s, top + 42 * s), "body acceleration", SOFT, typeface(12.5 * s))
-        value, big = f"{at(run, 'body_acceleration', time):+.1f}".replace("-", "−"), typeface(22 * s, bold=True)
+        value, big = signed(at(run, "body_acceleration", time)), typeface(22 * s, bold=True)
         draw.text((left + 2 * s, top + 80 * s), value, INK, big, anchor="ls")
         draw.text((left + 7 * s + big.getlength(value), top + 80 * s), "m/s²", SOFT, typeface(13 * s), anchor="ls")
-        self._load_bar(draw, run, box, time)
 
-    def _load_bar(self, draw: Any, run: Run, box: Box, time: float) -> None:
-        """Wheel load as a bar with the static load as a mark; red while the wheel is off the road."""
-        s = self.scale
-        right, top = box.left + box.width - 18 * s, box.top + 40 * s
-        width, height = 20 * s, min(210 * s, box.height - 120 * s)
-        lifted, total = lift(run, self.window, time)
-        load, static = 0.0 if lifted else at(run, "wheel_load", time), float(run["wheel_load"][0])
+    def bar(self, draw: Any, place: tuple[float, float, float, float], load: float, static: float, lifted: bool) -> float:
+        """Wheel load as a bar, green to orange, its frame red while the wheel is off the road; returns where the static load stands."""
+        s, full = self.scale, 1.05 * self.highest_load
+        left, top, width, height = place
+        right, base = left + width, top + height
         tone = rgb(LIFTED) if lifted else mixed((38, 140, 88), (235, 150, 20), float(np.clip(2 - load / max(static, 1.0), 0.0, 1.0)))
-        draw.rounded_rectangle(
-            [right - width, top, right, top + height], 4 * s, (255, 255, 255), rgb(LIFTED) if lifted else SOFT, max(round(s), 1)
-        )
-        filled = height * min(load / (1.05 * self.highest_load), 1.0)
+        draw.rounded_rectangle([left, top, right, base], 4 * s, (255, 255, 255), rgb(LIFTED) if lifted else SOFT, max(round(s), 1))
+        filled = height * min(load / full, 1.0)
         if filled >= 1:
-            draw.rectangle([right - width + 3 * s, top + height - filled, right - 3 * s, top + height - 2 * s], tone)
-        mark = top + height - height * static / (1.05 * self.highest_load)
-        draw.line([right - width - 5 * s, mark, right + 5 * s, mark], INK, max(round(1.5 * s), 1))
-        draw.text((right - width - 8 * s, mark), "static", SOFT, typeface(11 * s), anchor="rm")
-        draw.text((right, top - 8 * s), "wheel load", SOFT, typeface(12.5 * s), anchor="rb")
-        number = typeface(18 * s, bold=True)
-        outlined: dict[str, Any] = {"anchor": "rt", "stroke_width": 2.2 * s, "stroke_fill": PAPER}
-        draw.text((right, top + height + 8 * s), f"{load / 1000:.1f} kN", rgb(LIFTED) if lifted else INK, number, **outlined)
-        if total > 0:
-            note = f"lifted for {1000 * total:.0f} ms"
-            draw.text((right, top + height + 32 * s), note, rgb(LIFTED), typeface(12.5 * s, bold=True), **outlined)
-        if lifted:
-            self._alarm(draw, box)
+            draw.rectangle([left + 3 * s, base - filled, right - 3 * s, base - 2 * s], tone)
+        mark = base - height * static / full
+        draw.line([left - 5 * s, mark, right + 5 * s, mark], INK, max(round(1.5 * s), 1))
+        return mark
 
-    def _alarm(self, draw: Any, box: Box) -> None:
+    def alarm(self, draw: Any, box: Box, text: str) -> None:
+        """Red sign at the foot of a scene."""
         s = self.scale
         x, y = box.left + box.width / 2, box.top + box.height - 26 * s
         font = typeface(19 * s, bold=True)
-        half = font.getlength("NO CONTACT") / 2 + 16 * s
+        half = font.getlength(text) / 2 + 16 * s
         draw.rounded_rectangle([x - half, y - 17 * s, x + half, y + 17 * s], 8 * s, rgb(LIFTED))
-        draw.text((x, y), "NO CONTACT", (255, 255, 255), font, anchor="mm")
+        draw.text((x, y), text, (255, 255, 255), font, anchor="mm")
 
 
-def lift(run: Run, window: Window, time: float) -> tuple[bool, float]:
-    """Whether the wheel is off the road at any record since the last frame, and how long it has been in the window so far [s]."""
-    off = run["wheel_load"] <= CONTACT_LOST
+def lift(run: Run, window: Window, time: float, station: str = "") -> tuple[bool, float]:
+    """Whether a wheel is off the road at any record since the last frame, and how long it has been in the window so far [s]."""
+    off = run[channel_name(station, "wheel_load")] <= CONTACT_LOST
     latest = (run.time > time - max(window.frame_step, run.step)) & (run.time <= time + 1e-9)
     past = (run.time >= window.start) & (run.time <= time + 1e-9)
     return bool(off[latest].any()), float(off[past].sum()) * run.step

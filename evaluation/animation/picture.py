@@ -45,19 +45,33 @@ class Picture:
         shape = getattr(self.types, f"mjGEOM_{kind.upper()}")
         body.add_geom(type=shape, size=[*size, 0, 0][:3], material=material, pos=list(pos), mass=0.0, contype=0, conaffinity=0, **more)
 
+    def posed(self, name: str) -> Any:
+        """A body that is put in its place as a whole, by `pose`."""
+        body = self.spec.worldbody.add_body(name=name, mocap=True)
+        body.mass, body.inertia, body.ipos, body.explicitinertial = 1.0, [1, 1, 1], [0, 0, 0], True
+        return body
+
     def mesh(self, body: Any, name: str, surface: Any, material: str, pos: Sequence[float] = (0, 0, 0)) -> None:
-        """A triangle mesh from `vehicles.mjcf.body`."""
+        """A triangle mesh from `vehicles.mjcf`, used once."""
+        self.asset(name, surface)
+        self.copy(body, name, material, pos, name=name)
+
+    def asset(self, name: str, surface: Any) -> None:
+        """Triangles that several bodies show."""
         import mujoco
 
         mesh = self.spec.add_mesh(name=name, inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL)
         mesh.uservert, mesh.userface = surface.vertices.ravel(), surface.faces.ravel()
+
+    def copy(self, body: Any, asset: str, material: str, pos: Sequence[float] = (0, 0, 0), **more: Any) -> None:
+        """One more of an `asset`."""
         body.add_geom(
-            name=name, type=self.types.mjGEOM_MESH, meshname=name, material=material, pos=list(pos), mass=0.0, contype=0, conaffinity=0
+            type=self.types.mjGEOM_MESH, meshname=asset, material=material, pos=list(pos), mass=0.0, contype=0, conaffinity=0, **more
         )
 
 
-def studio(picture: Picture, size: tuple[int, int]) -> None:
-    """Light, sky and floor."""
+def studio(picture: Picture, size: tuple[int, int], extent: float = 2.0) -> None:
+    """Light, sky and fog; the fog begins at several times the `extent` [m] of what is shown."""
     import mujoco
 
     spec = picture.spec
@@ -68,7 +82,7 @@ def studio(picture: Picture, size: tuple[int, int]) -> None:
     look.map.fogstart, look.map.fogend, look.map.haze = 4.5, 10.0, 0.0
     look.rgba.fog = look.rgba.haze = [0.90, 0.925, 0.95, 1.0]
     look.headlight.ambient, look.headlight.diffuse, look.headlight.specular = [0.42] * 3, [0.26] * 3, [0.08] * 3
-    spec.stat.extent, spec.stat.center = 2.0, [0, 0, 0.5]
+    spec.stat.extent, spec.stat.center = extent, [0, 0, 0.5]
     spec.add_texture(
         name="sky",
         type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
@@ -113,8 +127,7 @@ def materials(picture: Picture, colour: str) -> None:
         picture.material(name, tone, specular, shininess)
 
 
-def contact_shadow(picture: Picture, plate: Any) -> None:
-    """Soft shadow of the wheel: a stack of faint discs on the road, far cheaper than a shadow map."""
-    patch = picture.turning(plate, "slope")
+def contact_shadow(picture: Picture, patch: Any) -> None:
+    """Soft shadow of a wheel on a body that lies on the road: a stack of faint discs, far cheaper than a shadow map."""
     for number, radius in enumerate(np.linspace(0.13, 0.30, 8)):
         picture.shape(patch, "ellipsoid", (float(radius), float(0.55 * radius), 0.0004), "shadow", (0, 0.02, 0.004 + 0.0005 * number))

@@ -9,7 +9,7 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .clip import at, speed_of
+from .clip import at, slope_at, speed_of, wheel_height
 from .quarter_shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
 from .window import Window
 
@@ -45,18 +45,14 @@ class Pose:
 
 def pose_at(run: Run, time: float) -> Pose:
     """The quarter car of a run at a time [s]; a massless wheel stands on the road."""
-    wheel = "wheel_displacement" if "wheel_displacement" in run else "road_height"
     speed = speed_of(run)
-    slope = (
-        (at(run, "road_height", time + run.step) - at(run, "road_height", time - run.step)) / (2 * run.step * speed) if speed > 0 else 0.0
-    )
     return Pose(
         body=at(run, "body_displacement", time),
-        wheel=at(run, wheel, time),
+        wheel=at(run, wheel_height("", run), time),
         spin=speed * time / WHEEL_RADIUS,
         travelled=speed * time,
         road=at(run, "road_height", time),
-        slope=slope,
+        slope=slope_at(run, "", time),
     )
 
 

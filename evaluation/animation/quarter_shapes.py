@@ -34,7 +34,7 @@ def quarter_spec(run: Run, colour: str, size: tuple[int, int], window: Window) -
         _road(picture, road, run, window)
     else:
         _rig(picture, plate)
-    contact_shadow(picture, plate)
+    contact_shadow(picture, picture.turning(plate, "slope"))
     return picture.spec
 
 

@@ -13,9 +13,7 @@ from susp_mj.errors import InputError, SuspMjError
 
 from ..colours import COLOURS
 from ..video import NO_FFMPEG, NO_GL, ffmpeg_program, gl_backend, gl_environment, unfinished_file
-from .clip import Clip
-
-_NEEDED = ("body_displacement", "body_acceleration", "suspension_deflection", "wheel_load", "road_height")
+from .clip import Clip, kind_of
 
 
 def can_render() -> str | None:
@@ -82,9 +80,7 @@ def _check(clips: Sequence[Clip], size: tuple[int, int], fps: int, playback: flo
         raise InputError(f"{fps} is not allowed; choose 1 to 120 frames per second", key="fps", source="video")
     if playback is not None and not 0.001 <= playback <= 100:
         raise InputError(f"{playback} is not allowed; choose 0.001 (slow motion) to 100, 1 is real time", key="playback", source="video")
-    for clip in clips:
-        if not all(quantity in clip.run for quantity in _NEEDED):
-            raise InputError(f"'{clip.label}': only runs of quarter cars can be shown; {clip.run.meta.get('model', 'the run')} is none")
+    kind_of(clips)
 
 
 def _film_in_process(folder: str, progress: Callable[[float], None] | None) -> None:

@@ -31,3 +31,8 @@ def playback_text(playback: float) -> str:
     if abs(playback - 1) < 1e-9:
         return "real time"
     return f"slow motion 1 : {1 / playback:.3g}" if playback < 1 else f"{playback:.3g} times real time"
+
+
+def signed(value: float, unit: str = "") -> str:
+    """A number with its sign and one decimal; what rounds to zero has a plus."""
+    return f"{round(value, 1) + 0.0:+.1f}{unit}".replace("-", "−")

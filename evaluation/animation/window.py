@@ -11,10 +11,11 @@ import numpy as np
 from susp_mj.run import Run
 
 BEFORE, AFTER, AFTER_INPUT, LONGEST = 0.1, 1.3, 1.0, 4.0
-"""Stretch of a run that is shown [s]: before the road first moves, after that, at least after it rests, and altogether at most."""
+"""Stretch of a run that is shown [s]: before the input first moves, after that, at least after it rests, and altogether at most."""
 PLAYBACKS = (0.2, 0.25, 1 / 3, 0.5, 1.0)
 LONGEST_CLIP = 8.0
 """Default playback is the slowest of these that keeps the clip below this length [s]."""
+_INPUTS = ("road_height", "lateral_acceleration", "longitudinal_acceleration", "roll_target")
 
 
 @dataclass(frozen=True)
@@ -44,8 +45,8 @@ class Window:
 
 
 def window_of(runs: Sequence[Run], fps: int, playback: float | None) -> Window:
-    """From just before the road first moves until the cars have calmed down; of a long excitation, where a wheel load varies most."""
-    moves = [_road_moves(run) for run in runs]
+    """From just before the input first moves until the cars have calmed down; of a long excitation, where a wheel load varies most."""
+    moves = [_input_moves(run) for run in runs]
     first, last = min(move[0] for move in moves), max(move[1] for move in moves)
     end = max(first + AFTER, last + AFTER_INPUT)
     if end - first > LONGEST:
@@ -59,13 +60,14 @@ def window_of(runs: Sequence[Run], fps: int, playback: float | None) -> Window:
     return Window(start, end, playback, fps)
 
 
-def _road_moves(run: Run) -> tuple[float, float]:
-    """When the road first and last moves [s]."""
-    moving = np.flatnonzero(np.abs(np.diff(run["road_height"])) > 1e-9)
+def _input_moves(run: Run) -> tuple[float, float]:
+    """When the road, or what else drives the car, first and last moves [s]."""
+    driven = [values for quantity in _INPUTS for values in run.stations(quantity).values()]
+    moving = np.flatnonzero(np.any([np.abs(np.diff(values)) > 1e-9 for values in driven], axis=0)) if driven else []
     return (float(run.time[moving[0]]), float(run.time[moving[-1] + 1])) if len(moving) else (BEFORE, BEFORE)
 
 
 def _largest_load(run: Run) -> tuple[float, float]:
-    """Largest departure of the wheel load from its initial value [N], and when [s]."""
-    departure = np.abs(run["wheel_load"] - run["wheel_load"][0])
+    """Largest departure of a wheel load from its initial value [N], and when [s]."""
+    departure = np.max([np.abs(load - load[0]) for load in run.stations("wheel_load").values()], axis=0)
     return float(departure.max()), float(run.time[int(departure.argmax())])
