@@ -1,0 +1,84 @@
+"""Linearisation: closed forms of the quarter car, agreement of transfer function and sweep, modes of the whole car."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from evaluation.frequency import amplification
+from manoeuvres import VerticalSweep
+from susp_mj import InputError, simulate
+from susp_mj.linear import linearise
+from vehicles import load_vehicle
+from vehicles.mjcf import MODELS, build
+
+from .verification.test_random_road import LINEAR_CAR
+
+
+@pytest.fixture
+def linear_car(tmp_path):
+    path = tmp_path / "linear.toml"
+    path.write_text(LINEAR_CAR)
+    return path
+
+
+def quarter_transfer(frequency, ms=483.5, mu=39.5, k=27486.45347285782, c=1200.0, kt=176e3):
+    """Body over road of the two-mass quarter car."""
+    s = 2j * np.pi * frequency
+    link = c * s + k
+    wheel = kt / (mu * s**2 + link + kt - link**2 / (ms * s**2 + link))
+    return wheel * link / (ms * s**2 + link)
+
+
+def test_transfer_function_is_the_closed_form(linear_car):
+    linear = linearise(build(load_vehicle(linear_car), "quarter_2dof"))
+    frequency = np.geomspace(0.1, 50, 60)
+    found = linear.transfer("body_displacement", {"road_height": 1.0}, frequency)
+    np.testing.assert_allclose(found, quarter_transfer(frequency), rtol=1e-6)
+    acceleration = linear.transfer("body_acceleration", {"road_height": 1.0}, frequency)
+    np.testing.assert_allclose(acceleration, found * (2j * np.pi * frequency) ** 2, rtol=1e-6)
+
+
+def test_modes_are_the_closed_form(linear_car):
+    modes = linearise(build(load_vehicle(linear_car), "quarter_2dof")).modes()
+    ms, mu, k, c, kt = 483.5, 39.5, 27486.45347285782, 1200.0, 176e3
+    roots = np.roots([ms * mu, c * (ms + mu), k * (ms + mu) + kt * ms, kt * c, k * kt])
+    expected = sorted((abs(r) / 2 / np.pi, -r.real / abs(r)) for r in roots if r.imag > 0)
+    np.testing.assert_allclose([(m.frequency, m.damping) for m in modes], expected, rtol=1e-6)
+
+
+def test_rigid_wheel_sees_the_rate_of_the_road(linear_car):
+    """(c s + k)/(m s² + c s + k): the damper feels the road's speed at once."""
+    linear = linearise(build(load_vehicle(linear_car), "quarter_1dof"))
+    frequency = np.geomspace(0.1, 30, 40)
+    s = 2j * np.pi * frequency
+    expected = (1200 * s + 27486.45347285782) / (483.5 * s**2 + 1200 * s + 27486.45347285782)
+    np.testing.assert_allclose(linear.transfer("body_displacement", {"road_height": 1.0}, frequency), expected, rtol=1e-6)
+
+
+def test_sweep_agrees_with_the_transfer_function(linear_car):
+    plant = build(load_vehicle(linear_car), "quarter_2dof")
+    found = amplification(simulate(plant, VerticalSweep(amplitude=0.02, duration=60.0)), "wheel_load")
+    exact = linearise(plant).transfer("wheel_load", {"road_height": 1.0}, found.frequency)
+    error = np.abs(found.ratio / exact - 1)
+    assert error.max() < 0.03
+    assert np.median(error) < 0.005
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_modes_of_the_saloon(model):
+    """As many body modes as body freedoms, near the design frequencies; all decay."""
+    car = load_vehicle("s_class", "configuration_4").without_friction()
+    modes = linearise(build(car, model)).modes()
+    assert all(0 < mode.damping <= 1 for mode in modes)
+    body = [mode for mode in modes if mode.oscillates and mode.frequency < 4]
+    assert len(body) == len(MODELS[model].freedoms)
+    assert all(0.6 < mode.frequency < 2.2 for mode in body)
+    for mode in modes:
+        assert max(abs(amplitude) for amplitude in mode.shape.values()) == pytest.approx(1.0)
+
+
+def test_unknown_channel_lists_the_known():
+    linear = linearise(build(load_vehicle("chapter3", "linear").without_friction(), "quarter_2dof"))
+    with pytest.raises(InputError, match="did you mean 'wheel_load'"):
+        linear.transfer("wheel_loads", {}, np.array([1.0]))
