@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .compare import Characteristic, ElementNote
+from .compare import Characteristic, ComponentDamper, ComponentSpring, ElementNote
 
 BEYOND_STOPS = 0.04
 """How far the samples reach beyond each stop, as a share of the travel."""
@@ -22,6 +22,7 @@ def characteristic(title: str, axle: Any) -> Characteristic:
     Args:
         title: e.g. "rear axle".
         axle: what carries a ``spring`` with its preload and stops, and a ``damper``; ``friction`` and ``tyre`` may be None.
+            A ``spring_ratio`` or ``damper_ratio`` adds the component's own characteristic.
     """
     spring, damper = axle.spring, axle.damper
     stops = spring.stops
@@ -38,6 +39,32 @@ def characteristic(title: str, axle: Any) -> Characteristic:
         damper_force=damper.force_at(speed),
         preload=float(spring.force_at(0.0)),
         elements=tuple(_notes(axle)),
+        component_spring=_component_spring(spring, getattr(axle, "spring_ratio", None), deflection[inside]),
+        component_damper=_component_damper(damper, getattr(axle, "damper_ratio", None), speed),
+    )
+
+
+def _component_spring(spring: Any, ratio: Any, deflection: np.ndarray) -> ComponentSpring | None:
+    """The spring itself at wheel deflections [m] between the stops."""
+    if ratio is None:
+        return None
+    force = spring.force_at(deflection)
+    return ComponentSpring(
+        ratio=float(ratio.at(0.0)),
+        travel=ratio.component_travel(deflection),
+        force=ratio.component_force(force, deflection),
+        rate=ratio.component_rate(spring.rate_at(deflection), force, deflection),
+    )
+
+
+def _component_damper(damper: Any, ratio: Any, speed: np.ndarray) -> ComponentDamper | None:
+    """The damper itself at wheel speeds [m/s], the wheel in the design position."""
+    if ratio is None:
+        return None
+    return ComponentDamper(
+        ratio=float(ratio.at(0.0)),
+        speed=ratio.component_speed(speed),
+        force=ratio.component_force(damper.force_at(speed), 0.0),
     )
 
 

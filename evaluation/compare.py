@@ -31,6 +31,35 @@ class ElementNote:
 
 
 @dataclass(frozen=True)
+class ComponentSpring:
+    """The spring itself, where its motion ratio is known; arrays in SI, between the stops.
+
+    Attributes:
+        ratio: component travel per wheel travel in the design position.
+        travel, force, rate: over the component's own travel from the design position, positive in compression.
+    """
+
+    ratio: float
+    travel: Any
+    force: Any
+    rate: Any
+
+
+@dataclass(frozen=True)
+class ComponentDamper:
+    """The damper itself, where its motion ratio is known, with the wheel in the design position; arrays in SI.
+
+    Attributes:
+        ratio: component travel per wheel travel in the design position.
+        speed, force: of the component, positive in compression; hydraulic force.
+    """
+
+    ratio: float
+    speed: Any
+    force: Any
+
+
+@dataclass(frozen=True)
 class Characteristic:
     """Sampled characteristics of one suspension, for the F-x, rate, frequency and F-v plots; arrays in SI.
 
@@ -41,6 +70,7 @@ class Characteristic:
         speed, damper_force: hydraulic force over speed, without mount and friction.
         preload: [N].
         elements: what the suspension is made of.
+        component_spring, component_damper: the same at the component, or None where no motion ratio is given.
     """
 
     title: str
@@ -52,6 +82,8 @@ class Characteristic:
     damper_force: Any
     preload: float
     elements: Sequence[ElementNote] = ()
+    component_spring: ComponentSpring | None = None
+    component_damper: ComponentDamper | None = None
 
     @property
     def stops(self) -> tuple[float, float]:

@@ -6,6 +6,7 @@ matplotlib is imported when the first plot is drawn. The same input gives the sa
 from __future__ import annotations
 
 import io
+import itertools
 import re
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -151,13 +152,21 @@ def _acting(configurations: Sequence[Configuration], quantity: str) -> list[str]
 def characteristic_plots(sets: Mapping[str, Sequence[Characteristic]]) -> dict[str, str]:
     """Spring force and rate over the travel, natural frequency over the load, damper force over speed.
 
+    Where a motion ratio is known, also the forces of spring and damper themselves over their own travel and speed.
+
     Args:
         sets: characteristics by configuration; those with the same title share a panel.
     """
     titles = list(dict.fromkeys(each.title for characteristics in sets.values() for each in characteristics))
     if not titles:
         return {}
-    return {name: _drawn(_characteristic_figure, sets, titles, draw_one) for name, draw_one in _CHARACTERISTICS.items()}
+    plots = {name: _drawn(_characteristic_figure, sets, titles, draw_one) for name, draw_one in _CHARACTERISTICS.items()}
+    for name, (part, draw_one) in _COMPONENTS.items():
+        known = {key: [each for each in characteristics if getattr(each, part)] for key, characteristics in sets.items()}
+        there = [title for title in titles if any(each.title == title for each in itertools.chain(*known.values()))]
+        if there:
+            plots[name] = _drawn(_characteristic_figure, known, there, draw_one)
+    return plots
 
 
 def amplification_plots(comparison: Comparison) -> dict[str, str]:
@@ -368,11 +377,36 @@ def _damper_force(panel: Axes, order: int, each: Characteristic) -> None:
     _label_axes(panel, "speed, compression positive [m/s]", "damper force at the wheel [kN]")
 
 
+def _component_spring(panel: Axes, order: int, each: Characteristic) -> None:
+    spring = each.component_spring
+    if spring is None:
+        return
+    travel, force = np.asarray(spring.travel) * 1e3, np.asarray(spring.force) * 1e-3
+    _line(panel, order, travel, force)
+    preload = [each.preload / spring.ratio * 1e-3]
+    panel.plot([0], preload, "o", color=colour(order), markersize=5, markeredgecolor=PAPER, markeredgewidth=0.8)
+    _label_axes(panel, "spring travel [mm]", "force of the spring itself [kN]")
+
+
+def _component_damper(panel: Axes, order: int, each: Characteristic) -> None:
+    damper = each.component_damper
+    if damper is None:
+        return
+    _line(panel, order, np.asarray(damper.speed), np.asarray(damper.force) * 1e-3)
+    panel.axhline(0, color=MUTED, linewidth=0.6, zorder=1.5)
+    panel.axvline(0, color=MUTED, linewidth=0.6, zorder=1.5)
+    _label_axes(panel, "damper speed, compression positive [m/s]", "force of the damper itself [kN]")
+
+
 _CHARACTERISTICS: dict[str, Callable[..., None]] = {
     "spring_force_characteristic": _spring_force,
     "spring_rate_characteristic": _spring_rate,
     "natural_frequency_characteristic": _spring_frequency,
     "damper_force_characteristic": _damper_force,
+}
+_COMPONENTS: dict[str, tuple[str, Callable[..., None]]] = {
+    "component_spring_force_characteristic": ("component_spring", _component_spring),
+    "component_damper_force_characteristic": ("component_damper", _component_damper),
 }
 
 

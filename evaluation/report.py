@@ -50,6 +50,8 @@ _PLOT_NOTES = {
     "spring_rate_characteristic": "between the stops",
     "natural_frequency_characteristic": "of the mass that the spring carries",
     "damper_force_characteristic": "hydraulic force, without mount and friction",
+    "component_spring_force_characteristic": "over its own travel between the stops; the dot is the design position",
+    "component_damper_force_characteristic": "over its own speed, the wheel in the design position",
 }
 _GLOSSARY = (
     ("body motion", "vertical, positive upwards; zero is the design position"),
@@ -387,4 +389,26 @@ def _key_values(each: Characteristic) -> dict[tuple[str, str], float]:
         ("damper rate F/v at 1 m/s, compression", "N s/m"): damping(1.0),
         ("damper rate F/v at 1 m/s, rebound", "N s/m"): damping(-1.0),
         ("damping ratio at KO", "1"): mean_damping / (2 * math.sqrt(rate * each.preload / GRAVITY)),
+        **_component_values(each),
     }
+
+
+def _component_values(each: Characteristic) -> dict[tuple[str, str], float]:
+    """Values of the spring and the damper themselves, where their motion ratios are known."""
+    values: dict[tuple[str, str], float] = {}
+    if (spring := each.component_spring) is not None:
+        values |= {
+            ("spring ratio i at KO, component travel / wheel travel", "1"): spring.ratio,
+            ("force of the spring itself at KO", "N"): each.preload / spring.ratio,
+            ("rate of the spring itself at KO", "N/m"): float(np.interp(0.0, spring.travel, spring.rate)),
+            ("travel of the spring itself to the rebound stop", "m"): float(spring.travel[0]),
+            ("travel of the spring itself to the compression stop", "m"): float(spring.travel[-1]),
+        }
+    if (damper := each.component_damper) is not None:
+        force = np.interp([0.1, -0.1], damper.speed, damper.force)
+        values |= {
+            ("damper ratio i at KO, component travel / wheel travel", "1"): damper.ratio,
+            ("rate F/v of the damper itself at 0.1 m/s, compression", "N s/m"): float(force[0]) / 0.1,
+            ("rate F/v of the damper itself at 0.1 m/s, rebound", "N s/m"): float(-force[1]) / 0.1,
+        }
+    return values

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from susp_mj.components import MotionRatio
 from susp_mj.description import Description, validate, wrong
 from susp_mj.elements import GRAVITY, AntiRollBar, AnyDamper, AnySpring, AnyTyre, LinkageFriction, Spring, Tyre
 from susp_mj.errors import InputError, choices
@@ -43,6 +44,7 @@ class Axle(Description):
         anti_roll_bar: or None.
         spring, damper, tyre: see `susp_mj.elements`.
         friction: linkage friction, or None.
+        spring_ratio, damper_ratio: component travel per wheel travel, for sheets of the components; the car needs neither.
     """
 
     track: PositiveLength | None = None
@@ -55,6 +57,8 @@ class Axle(Description):
     damper: AnyDamper
     friction: LinkageFriction | None = None
     tyre: AnyTyre | None = None
+    spring_ratio: MotionRatio | None = None
+    damper_ratio: MotionRatio | None = None
 
 
 class LoadCase(Description):
