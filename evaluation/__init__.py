@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import attitude, frequency, ride
+from . import attitude, comfort, frequency, ride
 from .number import Criterion, Evaluate, Number
 
 RIDE: tuple[Evaluate, ...] = (
@@ -33,6 +33,12 @@ FREQUENCY: tuple[Evaluate, ...] = (
     frequency.pitch_amplification,
     frequency.roll_amplification,
 )
+COMFORT: tuple[Evaluate, ...] = (
+    comfort.weighted_acceleration,
+    comfort.weighted_seat_acceleration,
+    comfort.vibration_dose_value,
+    comfort.maximum_transient_vibration,
+)
 ATTITUDE: tuple[Evaluate, ...] = (
     attitude.pitch_angle_max,
     attitude.pitch_angle_min,
@@ -46,6 +52,6 @@ ATTITUDE: tuple[Evaluate, ...] = (
     attitude.anti_roll_bar_front,
     attitude.anti_roll_bar_rear,
 )
-NUMBERS: dict[str, Evaluate] = {function.__name__: function for function in (*RIDE, *ATTITUDE, *FREQUENCY)}
+NUMBERS: dict[str, Evaluate] = {function.__name__: function for function in (*RIDE, *COMFORT, *ATTITUDE, *FREQUENCY)}
 
-__all__ = ["ATTITUDE", "FREQUENCY", "NUMBERS", "RIDE", "Criterion", "Number"]
+__all__ = ["ATTITUDE", "COMFORT", "FREQUENCY", "NUMBERS", "RIDE", "Criterion", "Number"]
