@@ -158,6 +158,16 @@ class Vehicle(Description):
             raise InputError(f"no load case '{name}'; {choices(self.loads, name)}", key="load", source=self.source)
         return self.loads[name]
 
+    def without_friction(self) -> Vehicle:
+        """The same car without linkage and damper friction, for linearisation and closed forms."""
+        axles = {}
+        for name in ("front", "rear"):
+            axle: Axle | None = getattr(self, name)
+            if axle is not None:
+                damper = axle.damper.model_copy(update={"friction": 0.0})
+                axles[name] = axle.model_copy(update={"friction": None, "damper": damper})
+        return self.model_copy(update=axles)
+
     def cg_height(self, load: str) -> float | None:
         """Height of the sprung mass' centre of gravity above the ground [m]; None if the car does not tell."""
         cg = self.load(load).cg
