@@ -13,20 +13,21 @@ from evaluation import video
 from evaluation.animation import Clip, can_render, render, render_video
 from evaluation.animation.car_hud import liveliest_angle, plan
 from evaluation.animation.car_pose import WHEEL_RADIUS as CAR_WHEEL_RADIUS
-from evaluation.animation.car_pose import CarPose, Layout
+from evaluation.animation.car_pose import CarPose, Layout, road_speed
 from evaluation.animation.car_scene import place as place_car
 from evaluation.animation.car_shapes import car_spec
-from evaluation.animation.clip import tyre_deflection
+from evaluation.animation.clip import kind_of, tyre_deflection
 from evaluation.animation.quarter_scene import place, pose_at, stretch_coil
 from evaluation.animation.quarter_shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
+from evaluation.animation.titles import describe
 from evaluation.animation.window import LONGEST_CLIP, window_of
 from evaluation.colours import COLOURS, rgb
-from manoeuvres import Bump, RoadStep, VerticalSweep
+from manoeuvres import Bump, LateralForce, RandomRoad, RoadStep, UnevenRoad, VerticalSweep
 from susp_mj import InputError, SuspMjError, simulate
 from susp_mj.names import channel_name
 from susp_mj.run import Run, described
 from vehicles import load_vehicle
-from vehicles.mjcf import build
+from vehicles.mjcf import MODELS, build
 
 SIZE, FPS = (320, 180), 10
 
@@ -337,6 +338,44 @@ def test_every_wheel_stands_on_its_own_track(kind):
             bottom = data.body(f"{station}_wheel").xpos[2] - radius
             squeezed = float(np.interp(time, run.time, run[channel_name(station, "wheel_load")])) / TYRE_RATE
             assert height - bottom == pytest.approx(squeezed, abs=2e-4)
+
+
+@pytest.mark.parametrize("model", [model for model, topology in MODELS.items() if topology.axles * topology.sides > 1])
+def test_every_model_with_several_wheels_can_be_shown(model):
+    run = simulate(build(load_vehicle("s_class", "configuration_4"), model), Bump(duration=0.6))
+    assert kind_of([Clip(model, run)]) == "car"
+    layout, drawn, data = drawn_car(run)
+    assert road_speed(run, layout) == pytest.approx(50 / 3.6)
+    for time in (0.0, 0.3, 0.5):
+        pose = CarPose.of(run, layout, time)
+        place_car(drawn, data, pose)
+        for station in layout.places:
+            deflection = np.interp(time, run.time, run[channel_name(station, "suspension_deflection")])
+            assert layout.strut.coil - pose.coil_length(station) == pytest.approx(deflection, abs=3e-3)
+            if tyre_deflection(run, station) > 0:
+                bottom = data.body(f"{station}_wheel").xpos[2] - CAR_WHEEL_RADIUS - tyre_deflection(run, station)
+                load = np.interp(time, run.time, run[channel_name(station, "wheel_load")])
+                assert pose.roads[station] - bottom == pytest.approx(load / 176000, abs=2e-4)
+
+
+def test_wheels_that_do_not_follow_one_road_stand_on_a_rig():
+    run = car_run()
+    swapped = {**run.channels, "rl_road_height": described("road_height", -run["rl_road_height"], "rl")}
+    assert road_speed(run, Layout.of(run)) == SPEED
+    assert road_speed(Run(run.time, swapped, run.meta), Layout.of(run)) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("manoeuvre", "text"),
+    [
+        (Bump(), "Bump  ·  +80 mm  ·  2 m long  ·  at 50 km/h"),
+        (UnevenRoad(), "Uneven road  ·  left +30 mm  ·  right −30 mm  ·  4 m long  ·  at 50 km/h"),
+        (RandomRoad(), "Random road  ·  class C  ·  at 80 km/h"),
+        (LateralForce(), "Lateral force  ·  +4 m/s²  ·  within 200 ms"),
+    ],
+)
+def test_header_says_what_is_done(manoeuvre, text):
+    assert describe(manoeuvre.model_dump(mode="json")) == text
 
 
 def test_what_a_run_does_not_say_is_taken_from_a_usual_car():

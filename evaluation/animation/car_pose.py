@@ -19,6 +19,7 @@ CG_HEIGHT = 0.55
 """Height of the point about which the drawn body turns [m]."""
 ONE_SIDE = 0.70
 """How far a one-sided car's plane of symmetry is drawn beside its wheels [m]."""
+_SAME_ROAD = 2e-3
 _USUAL = {"fl": (0.0, 0.7), "fr": (0.0, -0.7), "rl": (-2.9, 0.7), "rr": (-2.9, -0.7), "front": (0.0, 0.0), "rear": (-2.9, 0.0)}
 
 
@@ -108,10 +109,29 @@ class Layout:
         """1 for wheels of the left side, -1 for the right side."""
         return 1.0 if self.places[station][1] > self.middle else -1.0
 
+    def leader(self, side: float) -> str:
+        """Foremost wheel of a side."""
+        return max((station for station in self.places if self.side(station) == side), key=lambda station: self.places[station][0])
+
     def mount(self, station: str, height: float) -> np.ndarray:
         """Point on the axis of a strut in the design position [m]."""
         x, y = self.places[station]
         return np.array([x, y - self.side(station) * self.strut.inset, height])
+
+
+def road_speed(run: Run, layout: Layout) -> float:
+    """Speed at which one road per track passes under all wheels [m/s]; 0 if their heights are not those of one road, as on a rig."""
+    speed = speed_of(run)
+    if speed <= 0:
+        return 0.0
+    for station, (x, _) in layout.places.items():
+        leader = layout.leader(layout.side(station))
+        delay = (layout.places[leader][0] - x) / speed
+        known = run.time >= run.time[0] + delay
+        expected = np.interp(run.time[known] - delay, run.time, run[channel_name(leader, "road_height")])
+        if np.any(np.abs(expected - run[channel_name(station, "road_height")][known]) > _SAME_ROAD):
+            return 0.0
+    return speed
 
 
 @dataclass(frozen=True)
@@ -140,6 +160,7 @@ class CarPose:
     @classmethod
     def of(cls, run: Run, layout: Layout, time: float) -> CarPose:
         """The car of a run at a time [s]."""
+        speed = road_speed(run, layout)
         return cls(
             layout,
             heave=at(run, "body_displacement", time),
@@ -147,8 +168,8 @@ class CarPose:
             roll=at(run, "roll_angle", time, 0.0),
             wheels={station: at(run, wheel_height(station, run), time) for station in layout.places},
             roads={station: at(run, channel_name(station, "road_height"), time) for station in layout.places},
-            slopes={station: slope_at(run, station, time) for station in layout.places},
-            travelled=speed_of(run) * time,
+            slopes={station: slope_at(run, station, time) if speed > 0 else 0.0 for station in layout.places},
+            travelled=speed * time,
         )
 
     @cached_property

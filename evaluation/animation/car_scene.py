@@ -8,7 +8,7 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .car_pose import WHEEL_RADIUS, CarPose, Layout, about_x, about_y, upright
+from .car_pose import WHEEL_RADIUS, CarPose, Layout, about_x, about_y, road_speed, upright
 from .car_shapes import ARM_HEIGHT, HINGE, car_spec
 from .window import Window
 
@@ -34,7 +34,7 @@ class CarScene:
         self.data = mujoco.MjData(self.model)
         self.renderer = mujoco.Renderer(self.model, size[1], size[0])
         self.renderer.scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = 1
-        self.camera = _camera(self.model, self.layout, size)
+        self.camera = _camera(self.model, self.layout, size, road_speed(run, self.layout) > 0)
 
     def picture(self, time: float) -> np.ndarray:
         """(height, width, 3) picture at a time of the run [s]."""
@@ -111,7 +111,7 @@ def arm_ends(pose: CarPose, station: str) -> tuple[np.ndarray, np.ndarray]:
     return hinge, pose.wheel_centre(station) + np.array([0.0, -0.10 * side, ARM_HEIGHT - WHEEL_RADIUS])
 
 
-def _camera(model: Any, layout: Layout, size: tuple[int, int]) -> Any:
+def _camera(model: Any, layout: Layout, size: tuple[int, int], driving: bool) -> Any:
     """Camera at the car's right front, far enough away to see it whole."""
     import mujoco
 
@@ -120,7 +120,7 @@ def _camera(model: Any, layout: Layout, size: tuple[int, int]) -> Any:
     camera.azimuth, camera.elevation = (146.0, -11.0) if layout.one_axle else (133.0, -16.0)
     left = layout.middle + (0.0 if layout.one_sided else layout.half_track + 0.12)
     overhang = (0.60, 0.60) if layout.one_axle else (0.66, 0.86)
-    low = np.array([layout.rear - overhang[0], layout.middle - layout.half_track - 0.12, 0.0])
+    low = np.array([layout.rear - overhang[0], layout.middle - layout.half_track - 0.12, 0.0 if driving else -0.15])
     high = np.array([layout.front + overhang[1], left, 1.1])
     azimuth, elevation = np.radians(camera.azimuth), np.radians(camera.elevation)
     across = np.array([np.sin(azimuth), -np.cos(azimuth), 0.0])

@@ -10,8 +10,8 @@ from susp_mj.names import channel_name
 from susp_mj.run import Run
 
 from .car_bodywork import bodywork
-from .car_pose import WHEEL_RADIUS, Layout
-from .clip import speed_of, tyre_deflection
+from .car_pose import WHEEL_RADIUS, Layout, road_speed
+from .clip import tyre_deflection
 from .picture import Picture, contact_shadow, materials, studio
 from .window import Window
 
@@ -36,7 +36,7 @@ def car_spec(run: Run, layout: Layout, colour: str, size: tuple[int, int], windo
         _arms(picture, layout)
     for station in layout.places:
         contact_shadow(picture, picture.posed(f"{station}_shadow"))
-    if speed_of(run) > 0:
+    if road_speed(run, layout) > 0:
         _road(picture, run, layout, window)
     else:
         _rig(picture, layout)
@@ -120,7 +120,7 @@ def _road(picture: Picture, run: Run, layout: Layout, window: Window) -> None:
     """The road that passes underneath, its left and right half as high as its track."""
     from vehicles.mjcf import body as shapes
 
-    road, speed = picture.posed("road"), speed_of(run)
+    road, speed = picture.posed("road"), road_speed(run, layout)
     start, end = speed * window.start + layout.rear - 9.0, speed * window.end + layout.front + 9.0
     tracks = _tracks(layout)
     lowest = min(float(run[channel_name(station, "road_height")].min()) for station in layout.places)
@@ -150,10 +150,8 @@ def _tracks(layout: Layout) -> list[tuple[str, str, float, float]]:
     """Halves of the road: name, the station that leads on it, inner and outer edge in y [m]."""
     halves = []
     for name, side in (("right", -1.0), ("left", 1.0)):
-        own = [station for station in layout.places if layout.side(station) == side]
-        if own:
-            leader = max(own, key=lambda station: layout.places[station][0])
-            halves.append((name, leader, layout.middle, layout.middle + side * (layout.half_track + _ROAD_EDGE)))
+        if any(layout.side(station) == side for station in layout.places):
+            halves.append((name, layout.leader(side), layout.middle, layout.middle + side * (layout.half_track + _ROAD_EDGE)))
     return halves
 
 

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 _PARAMETERS = {
     "height": ("{:+.0f} mm", 1000.0),
+    "left_height": ("left {:+.0f} mm", 1000.0),
+    "right_height": ("right {:+.0f} mm", 1000.0),
+    "acceleration": ("{:+.3g} m/s²", 1.0),
+    "angle": ("{:.3g}°", 180 / math.pi),
     "length": ("{:.3g} m long", 1.0),
     "amplitude": ("amplitude {:.3g} mm", 1000.0),
     "rise_time": ("within {:.0f} ms", 1000.0),
@@ -23,7 +28,9 @@ def describe(manoeuvre: Mapping[str, Any]) -> str:
     parts = [
         text.format(manoeuvre[key] * factor) for key, (text, factor) in _PARAMETERS.items() if isinstance(manoeuvre.get(key), (int, float))
     ]
-    return "  ·  ".join([_TITLES.get(kind, kind.replace("_", " ")), *parts]).replace("-", "−")
+    if "road_class" in manoeuvre:
+        parts.insert(0, f"class {manoeuvre['road_class']}")
+    return "  ·  ".join([_TITLES.get(kind, kind.replace("_", " ").capitalize()), *parts]).replace("-", "−")
 
 
 def playback_text(playback: float) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from susp_mj.run import Run
 
-BEFORE, AFTER, AFTER_INPUT, LONGEST = 0.1, 1.3, 1.0, 4.0
+BEFORE, AFTER, AFTER_INPUT, LONGEST = 0.1, 1.3, 1.0, 6.5
 """Stretch of a run that is shown [s]: before the input first moves, after that, at least after it rests, and altogether at most."""
 PLAYBACKS = (0.2, 0.25, 1 / 3, 0.5, 1.0)
 LONGEST_CLIP = 8.0
