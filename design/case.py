@@ -11,16 +11,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import Field, model_validator
 
-from evaluation import NUMBERS, Criterion
+from evaluation import NUMBERS, Criterion, Number
 from evaluation.characteristics import characteristic
 from evaluation.compare import Claim, Comparison, Configuration, evaluate
-from manoeuvres import MANOEUVRES, find_manoeuvre
+from evaluation.plots import SWEEP_QUANTITIES
+from manoeuvres import MANOEUVRES, VerticalSweep, find_manoeuvre
 from susp_mj.description import Description, validate, wrong
 from susp_mj.errors import InputError, choices
+from susp_mj.linear import Linear, linearise
 from susp_mj.manoeuvre import Manoeuvre
-from susp_mj.plant import Plant
+from susp_mj.plant import Input, Plant
+from susp_mj.run import Run
 from susp_mj.simulation import simulate
 from susp_mj.units import Quantity, to_si
 from vehicles.mjcf import MODELS, build
@@ -166,13 +170,41 @@ def run_case(case: Case, path: Path, progress: Report = lambda task, done: None)
             run = simulate(plant, manoeuvre, step=case.step, record_every=case.record_every, progress=report)
         except InputError as error:
             raise error.within(source=path.name) from None
-        wanted = {*case.numbers, *case.criteria}
-        numbers = {name: number for name, number in evaluate(run, names).items() if number.applies or name in wanted}
-        title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, f"load {setting.load}") if part)
-        axles = dict.fromkeys(travel.key for travel in plant.meaning.travels)
-        curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in axles]
-        configurations.append(Configuration(setting.name, title, run, numbers, curves))
+        configurations.append(_outcome(case, setting, vehicle, manoeuvre, run, evaluate(run, names)))
+    wanted = {*case.numbers, *case.criteria}
+    shown = [name for name in names if name in wanted or any(each.numbers[name].applies for each in configurations)]
+    configurations = [replace(each, numbers={name: each.numbers[name] for name in shown}) for each in configurations]
     return Comparison(case.title, case.description, configurations, _criteria(case, configurations, path.name))
+
+
+def _outcome(case: Case, setting: Setting, vehicle: Vehicle, manoeuvre: Manoeuvre, run: Run, numbers: dict[str, Number]) -> Configuration:
+    """A run with what a report shows beside it: characteristics, modes, exact amplifications."""
+    title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, f"load {setting.load}") if part)
+    plant = build(vehicle.without_friction(), case.model, str(setting.load), setting.axle)
+    axles = dict.fromkeys(travel.key for travel in plant.meaning.travels)
+    curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in axles]
+    linear = linearise(plant)
+    transfer = exact_transfer(linear, manoeuvre, plant.meaning.inputs) if isinstance(manoeuvre, VerticalSweep) else {}
+    return Configuration(setting.name, title, run, numbers, curves, linear.modes(), transfer)
+
+
+def exact_transfer(linear: Linear, sweep: VerticalSweep, inputs: Sequence[Input]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Exact amplifications beside those of a sweep, of every channel that the report draws over frequency.
+
+    As for the sweep, a channel of a wheel is related to that wheel's road, one of the body to the first wheel's.
+    """
+    frequency = np.geomspace(sweep.start_frequency, sweep.end_frequency, 200)
+    roads = {place.station: place for place in inputs if place.quantity == "road_height"}
+    first = next(iter(roads.values()))
+    result = {}
+    for channel in linear.channels:
+        if channel.endswith(SWEEP_QUANTITIES):
+            own = roads.get(channel.split("_", 1)[0], first)
+            ratios = [
+                linear.transfer(channel, sweep.weights(inputs, each), np.array([each]))[0] / sweep.weight(own, each) for each in frequency
+            ]
+            result[channel] = (frequency, np.array(ratios))
+    return result
 
 
 def _prepare(case: Case, manoeuvre: Manoeuvre, setting: Setting, path: Path, index: int) -> tuple[Vehicle, Plant]:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from susp_mj.errors import InputError, choices
+from susp_mj.linear import Mode
 from susp_mj.run import Run
 
 from . import NUMBERS
@@ -102,6 +103,8 @@ class Configuration:
         run: its run.
         numbers: evaluation numbers by name.
         characteristics: of the suspensions that its model uses.
+        modes: of the model linearised at static equilibrium, friction left out, by rising frequency.
+        transfer: for a sweep, channel -> (frequency [Hz], exact complex amplification) of the linearised model.
     """
 
     name: str
@@ -109,6 +112,8 @@ class Configuration:
     run: Run
     numbers: Mapping[str, Number]
     characteristics: Sequence[Characteristic] = ()
+    modes: Sequence[Mode] = ()
+    transfer: Mapping[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
 
     @property
     def facts(self) -> dict[str, str]:
@@ -178,6 +183,7 @@ class Comparison:
             {
                 "configuration": each.name,
                 **each.facts,
+                "modes": [{"frequency": m.frequency, "damping": m.damping} for m in each.modes],
                 "numbers": {name: {"value": n.value, "unit": n.unit, "note": n.note} for name, n in each.numbers.items()},
                 "criteria": self.verdicts(each),
             }

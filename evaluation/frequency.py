@@ -136,4 +136,6 @@ def _peak(run: Run, quantity: str, unit: str, *, place: bool = False) -> Number:
     if best is None:
         return Number(None, unit, f"the run has no {quantity}", applies=False)
     peak, frequency, station = best
+    if peak < 1e-9:
+        return Number(None if place else 0.0, unit, "does not respond")
     return Number(frequency if place else peak, unit, (station if place else f"{station} at {frequency:.2f} Hz").strip())

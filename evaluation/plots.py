@@ -32,13 +32,19 @@ if TYPE_CHECKING:
 TIME_QUANTITIES = (
     "body_acceleration",
     "body_displacement",
+    "pitch_angle",
+    "roll_angle",
+    "seat_acceleration",
     "suspension_deflection",
     "suspension_speed",
     "wheel_load",
     "road_height",
+    "lateral_acceleration",
+    "longitudinal_acceleration",
+    "rig_moment",
 )
-ELEMENT_FORCES = ("spring_force", "stop_force", "damper_force", "friction_force")
-SWEEP_QUANTITIES = ("body_displacement", "body_acceleration", "suspension_deflection", "wheel_load")
+ELEMENT_FORCES = ("spring_force", "stop_force", "damper_force", "bar_force", "friction_force")
+SWEEP_QUANTITIES = ("body_displacement", "body_acceleration", "pitch_angle", "roll_angle", "suspension_deflection", "wheel_load")
 STATIONS = {
     "fl": "front left",
     "fr": "front right",
@@ -177,8 +183,15 @@ def amplification_plots(comparison: Comparison) -> dict[str, str]:
     return {
         f"{quantity}_amplification": _drawn(_amplification_figure, configurations, quantity, stations)
         for quantity in SWEEP_QUANTITIES
-        if (stations := _stations(configurations, quantity))
+        if (stations := _responding(configurations, quantity))
     }
+
+
+def _responding(configurations: Sequence[Configuration], quantity: str) -> list[str]:
+    """Stations that a sweep moves at all: a symmetric one does not roll the car."""
+    values = [run_values for each in configurations for run_values in each.run.stations(quantity).values()]
+    moves = any(np.ptp(each) > 1e-9 * max(1.0, np.abs(each).max()) for each in values)
+    return _stations(configurations, quantity) if moves else []
 
 
 def for_page(svg: str) -> str:
@@ -415,7 +428,8 @@ def _amplification_figure(configurations: Sequence[Configuration], quantity: str
 
     figure, axes = _panels([each.name for each in configurations], [_station_name(each) for each in stations], share_y=True)
     unit = QUANTITIES[quantity][0]
-    ratio_unit, factor = {"m": ("", 1.0), "m/s²": ("1/s²", 1.0), "N": ("kN/m", 1e-3)}.get(unit, (f"({unit})/m", 1.0))
+    shown_as = {"m": ("", 1.0), "m/s²": ("1/s²", 1.0), "N": ("kN/m", 1e-3), "rad": ("°/m", 180 / np.pi)}
+    ratio_unit, factor = shown_as.get(unit, (f"({unit})/m", 1.0))
     label = quantity.replace("_", " ") + " / road height" + (f" [{ratio_unit}]" if ratio_unit else " [–]")
     for panel, station in zip(axes, stations, strict=True):
         for order, each in enumerate(configurations):
@@ -423,6 +437,9 @@ def _amplification_figure(configurations: Sequence[Configuration], quantity: str
             found = amplification(each.run, name, station) if name in each.run else None
             if found is not None:
                 _line(panel, order, found.frequency, np.abs(found.ratio) * factor)
+            if name in each.transfer:
+                frequency, exact = each.transfer[name]
+                panel.plot(frequency, np.abs(exact) * factor, color=colour(order), linestyle=":", linewidth=1.2)
         panel.set_xscale("log")
         panel.set_yscale("log")
         for axis in (panel.xaxis, panel.yaxis):

@@ -40,6 +40,13 @@ GRAVITY = 9.81
 
 _MEDIA = {".mp4": "video/mp4", ".webm": "video/webm", ".gif": "image/gif", ".png": "image/png"}
 _PLOT_NOTES = {
+    **dict.fromkeys(
+        ("body_displacement_amplification", "body_acceleration_amplification", "suspension_deflection_amplification"),
+        "solid: read from the sweep; dotted: linearised, friction left out",
+    ),
+    "wheel_load_amplification": "solid: read from the sweep; dotted: linearised, friction left out",
+    "pitch_angle": "positive nose down",
+    "roll_angle": "positive left side up",
     "wheel_load": "at zero the wheel leaves the road; lost contact is shaded",
     "suspension_deflection": "positive in compression, from the design position",
     "suspension_speed": "positive in compression",
@@ -104,6 +111,7 @@ def write_report(
             claims=comparison.claims,
             criteria=_criteria_rows(comparison),
             numbers=_number_rows(comparison, footnotes),
+            modes=_mode_rows(comparison),
             footnotes=[(mark, note) for note, mark in footnotes.items()],
             videos=[_video(each, path.parent) for each in films],
             sections=list(_sections(drawn)),
@@ -242,6 +250,19 @@ def _band(criterion: Criterion, unit: str) -> str:
     if low is not None:
         return f"at least {quantity_text(low, unit)}"
     return f"at most {quantity_text(high, unit)}" if high is not None else "any value"
+
+
+def _mode_rows(comparison: Comparison) -> list[dict[str, Any]]:
+    """Oscillating modes, one row a mode, one cell a configuration; empty where a configuration has fewer."""
+    found = [[mode for mode in each.modes if mode.oscillates] for each in comparison.configurations]
+    longest = max((len(modes) for modes in found), default=0)
+    rows = []
+    for i in range(longest):
+        cells = [f"{modes[i].frequency:.2f} Hz, D = {modes[i].damping:.2f}" if i < len(modes) else "–" for modes in found]
+        largest = next(modes[i] for modes in found if i < len(modes))
+        moving = [joint.replace("_", " ") for joint, amplitude in largest.shape.items() if abs(amplitude) > 0.3]
+        rows.append({"label": ", ".join(moving), "cells": cells})
+    return rows
 
 
 def _sections(plots: Mapping[str, str]) -> Iterator[dict[str, Any]]:

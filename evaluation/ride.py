@@ -55,6 +55,8 @@ def overshoot(run: Run) -> Number:
     """
     if "body_displacement" not in run:
         return _missing("body_displacement", "1")
+    if "excitation_phase" in run:
+        return Number(None, "1", "a sweep has no final height", applies=False)
     displacement = run["body_displacement"] - run["body_displacement"][0]
     final = _final(displacement)
     if abs(final) < 0.1 * float(np.abs(displacement).max()) or final == 0.0:
@@ -66,6 +68,8 @@ def settling_time(run: Run) -> Number:
     """Time from the first road input until the body stays within ±5 % of its largest departure from the final height [s]."""
     if "body_displacement" not in run:
         return _missing("body_displacement", "s")
+    if "excitation_phase" in run:
+        return Number(None, "s", "a sweep does not settle", applies=False)
     displacement = run["body_displacement"]
     start = _first_input(run)
     departure = np.abs(displacement - _final(displacement))

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar, Literal
 
+from manoeuvres.rise import Rise
 from susp_mj.units import Acceleration, PositiveTime
-
-from .rise import Rise
 
 
 class LateralForce(Rise):

@@ -7,12 +7,11 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import model_validator
 
+from manoeuvres.wheels import checked, is_chosen
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.plant import Input
 from susp_mj.roads import cosine_ramp
 from susp_mj.units import Length, PositiveTime, Time
-
-from .wheels import checked, is_chosen
 
 
 class RoadStep(Manoeuvre):

@@ -6,9 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
+from manoeuvres.rise import Rise
 from susp_mj.units import PositiveTime, Quantity
-
-from .rise import Rise
 
 
 class RollAngle(Rise):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -9,6 +10,7 @@ from pydantic import model_validator
 
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
+from susp_mj.names import channel_name
 from susp_mj.plant import Input
 from susp_mj.units import Frequency, PositiveLength, PositiveSpeed, PositiveTime
 
@@ -52,11 +54,24 @@ class VerticalSweep(Manoeuvre):
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
         if place.quantity != "road_height":
             return None
-        opposite = (self.mode == "anti_phase" and place.y < 0) or (self.mode == "pitch" and place.x < 0)
         delay = 0.0 if self.speed is None else -place.x / self.speed
         height, rate = self._sine(np.maximum(time - delay, 0.0))
-        sign = -1.0 if opposite else 1.0
+        sign = -1.0 if self._opposed(place) else 1.0
         return sign * height, np.where(time >= delay, sign * rate, 0.0)
+
+    def weight(self, place: Input, frequency: float) -> complex:
+        """Complex amplitude of a wheel's road at a frequency [Hz], relative to a wheel that is neither opposed nor delayed."""
+        delay = 0.0 if self.speed is None else -place.x / self.speed
+        return (-1.0 if self._opposed(place) else 1.0) * complex(np.exp(-2j * np.pi * frequency * delay))
+
+    def weights(self, places: Sequence[Input], frequency: float) -> dict[str, complex]:
+        """`weight` of every road input, by its channel's name."""
+        roads = [place for place in places if place.quantity == "road_height"]
+        return {channel_name(place.station, place.quantity): self.weight(place, frequency) for place in roads}
+
+    def _opposed(self, place: Input) -> bool:
+        """Whether a wheel's road is opposite to the first one's."""
+        return (self.mode == "anti_phase" and place.y < 0) or (self.mode == "pitch" and place.x < 0)
 
     def _sine(self, time: np.ndarray) -> ValueAndRate:
         """Height and rate of the sweep under the first wheel."""

@@ -152,12 +152,14 @@ def test_new_makes_a_car_that_can_be_shown_built_and_driven(tmp_path):
     assert len(json.loads((tmp_path / "o" / "summary.json").read_text())["configurations"]) == 2
 
 
-@pytest.mark.parametrize("name", ["bump", "road_step", "vertical_sweep"])
+@pytest.mark.parametrize("name", sorted(path.stem for path in (ROOT / "manoeuvres").glob("*.py") if "__main__" in path.read_text()))
 def test_a_manoeuvre_is_a_script(tmp_path, name):
-    result = script(name, "-c", "linear", "-c", "nonlinear", "--duration", "2 s", cwd=tmp_path)
+    sets = ("configuration_3", "configuration_4")
+    options = ("--vehicle", "s_class", "-m", "full_3dof", "-c", sets[0], "-c", sets[1], "--duration", "2 s")
+    result = script(name, *options, cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     (summary,) = tmp_path.rglob("summary.json")
-    assert [each["configuration"] for each in json.loads(summary.read_text())["configurations"]] == ["linear", "nonlinear"]
+    assert [each["configuration"] for each in json.loads(summary.read_text())["configurations"]] == list(sets)
 
 
 def test_a_manoeuvre_script_refuses_bad_parameters_in_one_line(tmp_path):

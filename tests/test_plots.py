@@ -124,7 +124,7 @@ def test_four_wheels_become_four_panels(bump):
 def test_a_sweep_gives_amplifications_and_stays_small():
     sweep = compare(VerticalSweep(duration=30.0), names={"linear": "linear", "soft_linear": "soft"})
     plots = amplification_plots(sweep)
-    assert list(plots) == [f"{each}_amplification" for each in SWEEP_QUANTITIES]
+    assert list(plots) == [f"{each}_amplification" for each in SWEEP_QUANTITIES if each not in ("pitch_angle", "roll_angle")]
     for svg in plots.values():
         assert all(len(lines(svg, COLOURS[order])) == 1 for order in range(2))
         assert "frequency [Hz]" in texts(svg)
