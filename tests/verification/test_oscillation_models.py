@@ -272,6 +272,20 @@ def test_the_road_cannot_pull_in_a_turn(vehicle, name, model):
     assert max(found.values()) < 1e-3, found
 
 
+def test_a_massless_beam_stays_on_the_road_while_one_spring_seat_pulls(vehicle):
+    """The road cannot pull on a wheel; a seat inside the track may pull on the beam as long as both wheels press on the road."""
+    drop = RoadStep(height=-0.035, start=0.1, rise_time=0.03, duration=0.6, wheels=("right",))
+    run = simulate(build(vehicle("linear"), "axle_2dof", axle="rear"), drop, step=FINE, record_every=4)
+    car = Car.of(LINEAR_DATA, "axle_2dof", "ko", "rear")
+    expected = solve(car, on(("rr",), step_road(-0.035, 0.1, 0.03)), 0.6)
+    assert expected.load.min() > 200.0
+    narrow = 1.05 / 1.47  # a wheel's load is shared between the seats as (1 + b/t)/2 and (1 - b/t)/2
+    seat = (expected.load[:, 1] * (1 + 1 / narrow) + expected.load[:, 0] * (1 - 1 / narrow)) / 2
+    assert seat.min() < -50.0
+    found = deviations(run, expected, car)
+    assert max(found.values()) < 1e-6, found
+
+
 @pytest.mark.parametrize("manoeuvre", ["step", "bump"])
 @pytest.mark.parametrize(("model", "axle"), MODELS)
 def test_the_default_step_is_short_enough(vehicle, model, axle, manoeuvre):
