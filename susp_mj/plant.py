@@ -194,7 +194,7 @@ class Plant:
 
 
 def _check_partners(model: mujoco.MjModel, source: str) -> None:
-    """Refuse a file in which an anti-roll bar's other half is not where its parameters say."""
+    """Refuse a file in which an element's other half is not where its parameters say."""
     for i, user in enumerate(model.actuator_user):
         if len(user) >= ACTUATOR_HEADER and user[0] == ACTUATOR_MARK and user[2] != 0.0:
             partner = i + int(user[2])
@@ -305,8 +305,11 @@ def _rest_states(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Forces at the current position with every inner state at rest, i.e. equal to its element's deflection."""
     data.qvel[:] = 0.0
     mujoco.mj_forward(model, data)
+    length = data.actuator_length + data.ctrl
     for actuator in np.flatnonzero(model.actuator_actadr >= 0):
-        data.act[model.actuator_actadr[actuator]] = data.actuator_length[actuator] + data.ctrl[actuator]
+        _, _, partner, weight, other, _ = model.actuator_user[actuator][:ACTUATOR_HEADER]
+        deflection = length[actuator] if partner == 0 else weight * length[actuator] + other * length[actuator + int(partner)]
+        data.act[model.actuator_actadr[actuator]] = deflection
     mujoco.mj_forward(model, data)
 
 

@@ -178,7 +178,7 @@ def test_motors_added_first_do_not_move_the_callbacks_out_of_their_memory(tmp_pa
 
 def model_with_law(number):
     spec = mujoco.MjSpec()
-    spec.nuserdata, spec.nuser_actuator = 3, 6
+    spec.nuserdata, spec.nuser_actuator = 3, 9
     body = spec.worldbody.add_body(mass=1.0, inertia=[1, 1, 1], explicitinertial=True)
     body.add_joint(name="j", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
     actuator = spec.add_actuator(
@@ -189,7 +189,7 @@ def model_with_law(number):
         dyntype=mujoco.mjtDyn.mjDYN_USER,
         actdim=1,
     )
-    actuator.userdata = [ACTUATOR_MARK, float(number), 0.0, 1.0, 2.0, 3.0]
+    actuator.userdata = [ACTUATOR_MARK, float(number), 0.0, 1.0, 0.0, 1.0, 1.0, 2.0, 3.0]
     return spec.compile()
 
 

@@ -56,12 +56,23 @@ _state_rate_of = _table_call("susp_mj_state_table")
 
 
 @njit
-def _deflection(model, data, actuator):
-    """Deflection and speed of an actuator's element; `userdata` may be too short in a model edited by hand."""
+def _length(model, data, actuator):
+    """Length and rate of an actuator's form, the input's share in it; `userdata` may be too short in a file edited by hand."""
     v = doubles(data.actuator_velocity)[actuator]
     if USERDATA_HEADER + actuator < model.nuserdata:
         v += doubles(data.userdata)[USERDATA_HEADER + actuator]
     return doubles(data.actuator_length)[actuator] + doubles(data.ctrl)[actuator], v
+
+
+@njit
+def _deflection(model, data, actuator, own):
+    """Deflection and speed that an element sees: its own form's and its partner's, weighted."""
+    x, v = _length(model, data, actuator)
+    partner = actuator + int(own[2])
+    if partner != actuator:
+        other_x, other_v = _length(model, data, partner)
+        x, v = own[3] * x + own[4] * other_x, own[3] * v + own[4] * other_v
+    return x, v
 
 
 @cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
@@ -76,12 +87,8 @@ def _force(model_pointer, data_pointer, actuator):
         return 0.0
     state_address = ints(model.actuator_actadr)[actuator]
     state = doubles(data.act)[state_address] if state_address >= 0 else 0.0
-    x, v = _deflection(model, data, actuator)
-    partner = actuator + int(own[2])
-    if partner != actuator:
-        other_x, other_v = _deflection(model, data, partner)
-        x, v = x - other_x, v - other_v
-    return -_force_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
+    x, v = _deflection(model, data, actuator, own)
+    return -own[5] * _force_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
 
 
 @cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
@@ -96,7 +103,7 @@ def _state_rate(model_pointer, data_pointer, actuator):
     if own[0] != ACTUATOR_MARK or not 0.0 < own[1] < LAW_TABLE_SIZE:
         return 0.0
     state = doubles(data.act)[state_address]
-    x, v = _deflection(model, data, actuator)
+    x, v = _deflection(model, data, actuator, own)
     return _state_rate_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
 
 

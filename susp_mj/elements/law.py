@@ -15,10 +15,11 @@ ScalarLaw = Callable[[float, float, float, Parameters], float]
 LAW_TABLE_SIZE = 4096
 ACTUATOR_MARK = 20070612.0
 """First user parameter of every actuator that is ours; others are left alone."""
-ACTUATOR_HEADER = 3
-"""User parameters before the law's own: the mark, the law's number, and how many actuators on its partner is (0: none).
+ACTUATOR_HEADER = 6
+"""User parameters before the law's own: mark, number of the law, partner, own weight, partner's weight, factor.
 
-With a partner the law sees the difference of both deflections, as an anti-roll bar does.
+The law sees ``own weight * own deflection + partner's weight * partner's deflection``; the partner is so many actuators
+further on (0: none). The actuator's force is the factor times the law's. An anti-roll bar weighs 1 and -1.
 """
 USERDATA_HEADER = 2
 """Doubles of mjData's `userdata` before the deflection speeds: the mark of a running input, the address of its block."""

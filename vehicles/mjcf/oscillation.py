@@ -19,7 +19,7 @@ from susp_mj.names import channel_name
 from susp_mj.plant import Meaning, Plant, write_mjcf
 
 from ..vehicle import DESIGN_LOAD, Axle, Vehicle
-from .parts import POINT_MASS, Form, ModelBuilder
+from .parts import POINT_MASS, Form, ModelBuilder, Partner
 
 _FREEDOMS = {"heave": ("slide", [0.0, 0.0, 1.0]), "pitch": ("hinge", [0.0, 1.0, 0.0]), "roll": ("hinge", [1.0, 0.0, 0.0])}
 _BODY_HEIGHT = 0.65
@@ -247,28 +247,40 @@ def _axle(builder: ModelBuilder, topology: Topology, body: Any, position: dict[s
             _massless_wheel(builder, position, corner)
 
 
-def _suspension(builder: ModelBuilder, corner: _Corner, deflection: Form, *, lever: float = 1.0) -> list[str]:
-    """Spring, stops, damper, linkage friction and bar along a deflection; returns the actuators' names.
-
-    Args:
-        lever: distance of the springs over the track; a bar's rate is that at the wheel.
-    """
+def _elements(corner: _Corner) -> dict[str, Element]:
+    """Spring, stops, damper, linkage friction and bar of a corner, by part; the bar's rate is that at the wheel."""
     axle = corner.axle
     elements: dict[str, Element] = {"spring": axle.spring, "stop": axle.spring.stops, "damper": axle.damper}
     if axle.friction is not None:
         elements["friction"] = axle.friction
-    for part, element in elements.items():
-        builder.force(corner.name(part), element, deflection)
     if corner.partner is not None and axle.anti_roll_bar is not None:
-        bar = AntiRollBar(rate=axle.anti_roll_bar.rate / lever**2)
-        elements["bar"] = bar
-        builder.force(corner.name("bar"), bar, deflection, partner=channel_name(corner.partner, "bar"))
-    for part in elements:
+        elements["bar"] = axle.anti_roll_bar
+    return elements
+
+
+def _suspension(builder: ModelBuilder, corner: _Corner, deflection: Form, *, lever: float = 1.0) -> list[str]:
+    """A corner's elements along a deflection; returns the actuators' names.
+
+    Args:
+        lever: distance of the springs over the track; a bar's rate is that at the wheel.
+    """
+    elements = _elements(corner)
+    for part, element in elements.items():
+        if isinstance(element, AntiRollBar):
+            bar = AntiRollBar(rate=element.rate / lever**2)
+            builder.force(corner.name(part), bar, deflection, Partner(channel_name(str(corner.partner), "bar"), 1.0, -1.0))
+        else:
+            builder.force(corner.name(part), element, deflection)
         builder.output(f"{part}_force", corner.station, ("actuator_force", corner.name(part), -1.0))
+    _travel_outputs(builder, corner, deflection)
+    return [corner.name(part) for part in elements]
+
+
+def _travel_outputs(builder: ModelBuilder, corner: _Corner, deflection: Form) -> None:
+    """Channels of the suspension travel, and its limits."""
     builder.output("suspension_deflection", corner.station, *deflection.terms("qpos", "input"))
     builder.output("suspension_speed", corner.station, *deflection.terms("qvel", "input_rate"))
-    builder.travel(corner.station, axle, corner.axle_name)
-    return [corner.name(part) for part in elements]
+    builder.travel(corner.station, corner.axle, corner.axle_name)
 
 
 def _massless_wheel(builder: ModelBuilder, position: dict[str, Form], corner: _Corner) -> None:
@@ -291,21 +303,35 @@ def _sprung_wheel(builder: ModelBuilder, body: Any, position: dict[str, Form], c
 
 
 def _massless_rigid_axle(builder: ModelBuilder, _body: Any, position: dict[str, Form], corners: Sequence[_Corner]) -> None:
-    """A massless beam whose ends follow the road; the springs stand on it at the spring base and cannot pull in sum."""
+    """A massless beam whose ends follow the road; the road cannot pull, so each wheel's share of the springs is at least 0.
+
+    A spring seat at a share ``lever`` of the half track moves with ``(1 + lever)/2`` of its own wheel and ``(1 - lever)/2`` of
+    the other, and loads them in the same shares. So each element acts along both wheels' deflections.
+    """
     left, right = corners
-    lever = _lever(left.axle)
-    actuators: dict[str, list[str]] = {}
+    near, far = (1 + _lever(left.axle)) / 2, (1 - _lever(left.axle)) / 2
+    deflections = {corner.station: corner.road - _height(position, corner.x, corner.y) for corner in corners}
+    loads: dict[str, list[str]] = {corner.station: [] for corner in corners}
     for corner, other in ((left, right), (right, left)):
-        middle = (corner.road + other.road) * 0.5
-        seat = middle + (corner.road - other.road) * (lever / 2)
-        offset = (left.y + right.y) / 2
-        deflection = seat - _height(position, corner.x, offset + lever * (corner.y - offset))
-        actuators[corner.station] = _suspension(builder, corner, deflection, lever=lever)
-        builder.push_only(deflection)
-    for corner, other in ((left, right), (right, left)):
-        shares = ((corner.station, (1 + lever) / 2), (other.station, (1 - lever) / 2))
-        terms = [("actuator_force", name, -share) for station, share in shares for name in actuators[station] if share != 0.0]
-        builder.output("wheel_load", corner.station, *terms)
+        own, across = deflections[corner.station], deflections[other.station]
+        for part, element in _elements(corner).items():
+            name, beyond = corner.name(part), corner.name(f"{part}_across")
+            if part == "bar":
+                builder.force(name, element, own, Partner(other.name("bar"), 1.0, -1.0))
+                beyond = ""
+            elif far == 0.0:
+                builder.force(name, element, own)
+                beyond = ""
+            else:
+                builder.force(name, element, own, Partner(beyond, near, far), near)
+                builder.force(beyond, element, across, Partner(name, far, near), far)
+                loads[other.station].append(beyond)
+            loads[corner.station].append(name)
+            builder.output(f"{part}_force", corner.station, *(("actuator_force", each, -1.0) for each in (name, beyond) if each))
+        _travel_outputs(builder, corner, own * near + across * far)
+    for corner in corners:
+        builder.push_only(deflections[corner.station])
+        builder.output("wheel_load", corner.station, *(("actuator_force", name, -1.0) for name in loads[corner.station]))
 
 
 def _sprung_rigid_axle(builder: ModelBuilder, body: Any, position: dict[str, Form], corners: Sequence[_Corner]) -> None:
@@ -366,20 +392,11 @@ def _lateral(
         if topology.sprung_wheels:  # on the wheel only; its reaction is in the body's moment
             builder.motor_on(corner.name("link"), corner.name("tyre"), "lateral_acceleration", -lift)
         else:  # between wheel and body, so that the road's push includes it
-            _link(builder, corner, corners, lift / (_lever(corner.axle) if topology.rigid_axle else 1.0))
+            builder.motor_on(corner.name("link"), corner.name("spring"), "lateral_acceleration", lift)
+            builder.add_terms("wheel_load", corner.station, ("actuator_force", corner.name("link"), -1.0))
     builder.force("overturning", Overturning(moment=lever * GRAVITY), position["roll"])
     builder.motor("roll_moment", position["roll"], "lateral_acceleration", moment)
     return lever
-
-
-def _link(builder: ModelBuilder, corner: _Corner, corners: Sequence[_Corner], lift: float) -> None:
-    """Vertical force of the links between a massless wheel and the body, per unit of lateral acceleration."""
-    name = corner.name("link")
-    builder.motor_on(name, corner.name("spring"), "lateral_acceleration", lift)
-    for other in corners:
-        share = builder.share("wheel_load", other.station, corner.name("spring"))
-        if share != 0.0:
-            builder.add_terms("wheel_load", other.station, ("actuator_force", name, share))
 
 
 def _longitudinal(builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, mass: _Mass, position: dict[str, Form]) -> None:

@@ -58,6 +58,30 @@ def _sum(a: dict[str, float], b: dict[str, float]) -> dict[str, float]:
     return {key: weight for key, weight in total.items() if weight != 0.0}
 
 
+@dataclass(frozen=True)
+class Partner:
+    """A second actuator whose form shares in an element's deflection: ``own * its form + other * the partner's``.
+
+    Attributes:
+        name: of the actuator; it may be added later.
+        own, other: weights.
+    """
+
+    name: str
+    own: float
+    other: float
+
+
+@dataclass(frozen=True)
+class _Acting:
+    """What makes an actuator a force element: law, partner, factor of the force, the law's parameters."""
+
+    law: int
+    partner: Partner | None
+    factor: float
+    parameters: tuple[float, ...]
+
+
 class ModelBuilder:
     """A MuJoCo specification in the making, with inputs, outputs and limits collected beside it."""
 
@@ -92,18 +116,19 @@ class ModelBuilder:
         self._entries.setdefault(("road_height", station), [])
         return Form({}, {station: 1.0})
 
-    def force(self, name: str, element: Element, form: Form, partner: str | None = None) -> None:
-        """Let an element act along a form, positive force lengthening nothing: it opposes the form's growth.
+    def force(self, name: str, element: Element, form: Form, partner: Partner | None = None, factor: float = 1.0) -> None:
+        """Let an element act along a form: a positive force opposes the form's growth.
 
         Args:
-            partner: actuator whose deflection is subtracted; it may be added later.
+            partner: where the element's deflection is not the form alone.
+            factor: of the force.
         """
         law = element.active_law
         actuator = self._actuator(name, form)
         actuator.biastype, actuator.gainprm[0] = mujoco.mjtBias.mjBIAS_USER, 0.0
         if law.state_rate is not None:
             actuator.dyntype, actuator.actdim = mujoco.mjtDyn.mjDYN_USER, 1
-        self._actuators[-1] = (name, actuator, (float(law.number), *element.parameters()), partner)
+        self._actuators[-1] = (name, actuator, _Acting(law.number, partner, factor, element.parameters()))
         for station, weight in form.roads.items():
             self._entries[("road_height", station)].append((name, weight))
 
@@ -122,14 +147,14 @@ class ModelBuilder:
         target = next(actuator for each, actuator, *_ in self._actuators if each == other)
         actuator = self.spec.add_actuator(name=name, target=target.target, trntype=target.trntype)
         actuator.gainprm[0] = 1.0
-        self._actuators.append((name, actuator, None, None))
+        self._actuators.append((name, actuator, None))
         self.drive(quantity, name, factor)
 
     def _actuator(self, name: str, form: Form) -> Any:
         joint = next(iter(form.joints)) if list(form.joints.values()) == [1.0] else None
         kind = mujoco.mjtTrn.mjTRN_TENDON if joint is None else mujoco.mjtTrn.mjTRN_JOINT
         actuator = self.spec.add_actuator(name=name, target=joint or self._tendon(name, form), trntype=kind)
-        self._actuators.append((name, actuator, None, None))
+        self._actuators.append((name, actuator, None))
         return actuator
 
     def _tendon(self, name: str, form: Form) -> str:
@@ -157,11 +182,6 @@ class ModelBuilder:
             if (output.quantity, output.station) == (quantity, station):
                 self.outputs[i] = Output(quantity, station, (*output.terms, *terms))
 
-    def share(self, quantity: str, station: str, actuator: str) -> float:
-        """Weight of an actuator's force in a declared channel."""
-        (output,) = (each for each in self.outputs if (each.quantity, each.station) == (quantity, station))
-        return sum(weight for source, name, weight in output.terms if (source, name) == ("actuator_force", actuator))
-
     def travel(self, station: str, axle: Axle, axle_name: str) -> None:
         """Declare the travel of a station's suspension and the time constant of its damper."""
         stops = axle.spring.stops
@@ -180,11 +200,12 @@ class ModelBuilder:
         """Write the user parameters and state what the numbers mean."""
         order = [name for name, *_ in self._actuators]
         longest = 0
-        for index, (_, actuator, parameters, partner) in enumerate(self._actuators):
-            if parameters is not None:
-                number, *own = parameters
-                actuator.userdata = [ACTUATOR_MARK, number, 0.0 if partner is None else float(order.index(partner) - index), *own]
-                longest = max(longest, len(own))
+        for index, (_, actuator, acting) in enumerate(self._actuators):
+            if acting is not None:
+                partner = acting.partner
+                place = [0.0, 1.0, 0.0] if partner is None else [float(order.index(partner.name) - index), partner.own, partner.other]
+                actuator.userdata = [ACTUATOR_MARK, float(acting.law), *place, acting.factor, *acting.parameters]
+                longest = max(longest, len(acting.parameters))
         self.spec.nuser_actuator = ACTUATOR_HEADER + longest
         self.spec.nuserdata = USERDATA_HEADER + len(order)
         inputs = [
