@@ -23,7 +23,8 @@ from susp_mj.description import Description, validate, wrong
 from susp_mj.errors import InputError, choices
 from susp_mj.linear import Linear, linearise
 from susp_mj.manoeuvre import Manoeuvre
-from susp_mj.plant import Input, Plant
+from susp_mj.meaning import Input
+from susp_mj.plant import Plant
 from susp_mj.run import Run
 from susp_mj.simulation import simulate
 from susp_mj.units import Quantity, to_si

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from susp_mj.errors import InputError, choices
-from susp_mj.linear import Mode
 from susp_mj.run import Run
 
 from . import NUMBERS
 from .number import Criterion, Number
+
+if TYPE_CHECKING:
+    from susp_mj.linear import Mode
 
 
 @dataclass(frozen=True)

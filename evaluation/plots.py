@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from susp_mj.files import write_text
 from susp_mj.names import QUANTITIES, channel_name
 
 from .colours import COLOURS
 from .display import shown
-from .files import write_text
 from .frequency import amplification
 from .ride import CONTACT_LOST
 

@@ -21,11 +21,11 @@ from urllib.parse import quote
 import numpy as np
 
 from susp_mj.errors import InputError
+from susp_mj.files import write_text
 
 from . import NUMBERS
 from .colours import COLOURS
 from .display import number_text, quantity_text, shown
-from .files import write_text
 from .number import Criterion
 from .plots import STATIONS, characteristic_plots, draw, for_page, on_dark
 

@@ -10,7 +10,7 @@ from pydantic import model_validator
 
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
-from susp_mj.plant import Input
+from susp_mj.meaning import Input
 from susp_mj.roads import ROAD_CLASSES, RandomTracks
 from susp_mj.units import NonNegativeLength, PositiveLength, PositiveSpeed, PositiveTime
 

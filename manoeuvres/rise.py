@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
-from susp_mj.plant import Input
+from susp_mj.meaning import Input
 from susp_mj.roads import cosine_ramp
 from susp_mj.units import PositiveTime, Time
 

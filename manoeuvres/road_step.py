@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from manoeuvres.wheels import checked, is_chosen
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
-from susp_mj.plant import Input
+from susp_mj.meaning import Input
 from susp_mj.roads import cosine_ramp
 from susp_mj.units import Length, PositiveTime, Time
 

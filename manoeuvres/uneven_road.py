@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
-from susp_mj.plant import Input
+from susp_mj.meaning import Input
 from susp_mj.roads import cosine_bump
 from susp_mj.units import Length, PositiveLength, PositiveSpeed, PositiveTime, Time
 

@@ -10,8 +10,8 @@ from pydantic import model_validator
 
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
+from susp_mj.meaning import Input
 from susp_mj.names import channel_name
-from susp_mj.plant import Input
 from susp_mj.units import Frequency, PositiveLength, PositiveSpeed, PositiveTime
 
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from susp_mj.description import wrong
 from susp_mj.errors import choices
+from susp_mj.meaning import Input
 from susp_mj.names import AXLES, CORNERS
-from susp_mj.plant import Input
 
 WORDS = ("left", "right", *AXLES, *CORNERS)
 

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from .equilibrium import static_equilibrium
 from .errors import InputError, choices
 from .names import channel_name
-from .plant import Plant, static_equilibrium
+from .plant import Plant
 
 _STEP = 1e-7
 """Difference in position [m, rad] and velocity [m/s, rad/s]; forces are smooth at rest, so this is far from any kink."""

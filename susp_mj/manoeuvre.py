@@ -13,7 +13,7 @@ from .errors import InputError
 from .units import PositiveTime
 
 if TYPE_CHECKING:
-    from .plant import Input
+    from .meaning import Input
 
 Values = np.ndarray
 ValueAndRate = tuple[np.ndarray, np.ndarray]

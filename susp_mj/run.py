@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import InputError, choices
+from .files import whole
 from .names import QUANTITIES
 
 if TYPE_CHECKING:
@@ -86,34 +86,25 @@ class Run:
         """
         import netCDF4
 
-        path = Path(path)
-        unfinished = path.with_name(path.name + ".part")
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            with netCDF4.Dataset(unfinished, "w", format="NETCDF4") as file:
-                title = str(self.meta.get("title", "susp_mj run"))
-                file.setncatts({"Conventions": "CF-1.11", "title": title, "meta": json.dumps(self.meta)})
-                file.createDimension("time", len(self.time))
-                axis = file.createVariable("time", "f8", ("time",))
-                axis.units, axis[:] = "s", self.time
-                for name, channel in self.channels.items():
-                    variable = file.createVariable(name, "f8", ("time",), compression="zlib", complevel=1, shuffle=True)
-                    variable.setncatts(
-                        {
-                            "units": channel.unit,
-                            "long_name": channel.description,
-                            "quantity": channel.quantity,
-                            "station": channel.station,
-                            "frame": channel.frame,
-                        }
-                    )
-                    variable[:] = channel.values
-            unfinished.replace(path)
-        except OSError as error:
-            with contextlib.suppress(OSError):
-                unfinished.unlink()
-            raise InputError(f"cannot be written: {error.strerror or error}", source=str(path)) from None
-        return path
+        with whole(path) as unfinished, netCDF4.Dataset(unfinished, "w", format="NETCDF4") as file:
+            title = str(self.meta.get("title", "susp_mj run"))
+            file.setncatts({"Conventions": "CF-1.11", "title": title, "meta": json.dumps(self.meta)})
+            file.createDimension("time", len(self.time))
+            axis = file.createVariable("time", "f8", ("time",))
+            axis.units, axis[:] = "s", self.time
+            for name, channel in self.channels.items():
+                variable = file.createVariable(name, "f8", ("time",), compression="zlib", complevel=1, shuffle=True)
+                variable.setncatts(
+                    {
+                        "units": channel.unit,
+                        "long_name": channel.description,
+                        "quantity": channel.quantity,
+                        "station": channel.station,
+                        "frame": channel.frame,
+                    }
+                )
+                variable[:] = channel.values
+        return Path(path)
 
     @classmethod
     def load(cls, path: str | Path) -> Run:

@@ -10,10 +10,11 @@ from importlib.metadata import version
 import mujoco
 import numpy as np
 
+from .equilibrium import static_equilibrium
 from .errors import InputError, SimulationError
 from .manoeuvre import Manoeuvre
 from .names import channel_name
-from .plant import Plant, static_equilibrium
+from .plant import Plant
 from .run import Channel, Run, described
 
 STEP = 1e-3

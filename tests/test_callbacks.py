@@ -16,8 +16,9 @@ from susp_mj import compiled, simulate
 from susp_mj.compiled import layout
 from susp_mj.elements import LAWS, Law, LinearSpring, register
 from susp_mj.elements.law import ACTUATOR_MARK, helpers
+from susp_mj.equilibrium import static_equilibrium
 from susp_mj.errors import CallbackError
-from susp_mj.plant import Plant, static_equilibrium
+from susp_mj.plant import Plant
 from vehicles import load_vehicle
 from vehicles.mjcf import build, write
 

@@ -10,7 +10,7 @@ from evaluation.compare import evaluate
 from evaluation.frequency import amplification
 from manoeuvres import VerticalSweep
 from susp_mj import InputError, Run
-from susp_mj.plant import Input
+from susp_mj.meaning import Input
 from susp_mj.run import described
 
 STEP = 0.01

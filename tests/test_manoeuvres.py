@@ -8,7 +8,7 @@ import pytest
 from manoeuvres import ALIASES, MANOEUVRES, Bump, RoadStep, VerticalSweep, find_manoeuvre
 from susp_mj import InputError
 from susp_mj.description import validate
-from susp_mj.plant import Input
+from susp_mj.meaning import Input
 
 WHEEL = Input("road_height", "", 0.0, 0.0, ())
 REAR = Input("road_height", "rl", -3.081, 0.7, ())

@@ -14,7 +14,7 @@ from manoeuvres import Bump, RoadStep
 from susp_mj import simulate
 from susp_mj.compiled import attach_input, install
 from susp_mj.elements import ConstantFrequencySpring, LinkageFriction, Stops
-from susp_mj.plant import static_equilibrium
+from susp_mj.equilibrium import static_equilibrium
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 

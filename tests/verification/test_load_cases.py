@@ -7,8 +7,8 @@ import pytest
 
 from manoeuvres import RoadStep
 from susp_mj import simulate
+from susp_mj.equilibrium import static_equilibrium
 from susp_mj.errors import InputError, SimulationError
-from susp_mj.plant import static_equilibrium
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 

@@ -8,7 +8,7 @@ from scipy.signal import coherence, welch
 
 from manoeuvres import RandomRoad
 from susp_mj import simulate
-from susp_mj.plant import Input
+from susp_mj.meaning import Input
 from susp_mj.roads import ROAD_CLASSES, RandomTracks
 from vehicles import load_vehicle
 from vehicles.mjcf import build

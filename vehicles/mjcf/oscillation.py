@@ -15,8 +15,9 @@ import mujoco
 
 from susp_mj.elements import GRAVITY, AntiRollBar, Element, Overturning, Rig
 from susp_mj.errors import InputError, choices
+from susp_mj.meaning import Meaning
 from susp_mj.names import channel_name
-from susp_mj.plant import Meaning, Plant, write_mjcf
+from susp_mj.plant import Plant, write_mjcf
 
 from ..vehicle import DESIGN_LOAD, Axle, Vehicle
 from .parts import POINT_MASS, Form, ModelBuilder, Partner

@@ -14,8 +14,8 @@ import mujoco
 
 from susp_mj.elements import GRAVITY, Damper, Element
 from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
+from susp_mj.meaning import Input, Meaning, Output, TimeConstant, Travel
 from susp_mj.names import channel_name
-from susp_mj.plant import Input, Meaning, Output, TimeConstant, Travel
 from susp_mj.simulation import STEP
 
 from ..vehicle import Axle

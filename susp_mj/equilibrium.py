@@ -1,0 +1,103 @@
+"""Static equilibrium of a plant: where it rests under gravity before anything happens."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+
+import mujoco
+import numpy as np
+
+from .elements.law import ACTUATOR_HEADER
+from .errors import InputError, SimulationError
+from .plant import Plant
+
+
+def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.MjData:
+    """Data at rest under gravity, the inputs at their first value: accelerations vanish, inner states carry no force.
+
+    Args:
+        block: inputs as `compiled.input_block` makes them, with zero rates.
+
+    Raises:
+        InputError: the load cannot be carried between the stops.
+        SimulationError: no equilibrium found.
+    """
+    from .compiled import attach_input, install
+
+    install(plant.laws)
+    model = copy.copy(plant.model)
+    model.tendon_actfrclimited[:] = 0  # a wheel at rest is on the road; without its limit every force has a slope
+    data = mujoco.MjData(model)
+    attach_input(data, block)
+
+    def residual(position: np.ndarray) -> np.ndarray:
+        data.qpos[:] = position
+        _rest_states(model, data)
+        return data.qfrc_smooth / weight
+
+    mujoco.mj_forward(model, data)
+    weight = np.maximum(np.abs(data.qfrc_bias), np.abs(data.qfrc_bias).max())
+    position = _newton(residual, data.qpos.copy())
+    if not np.max(np.abs(residual(position))) < 1e-9:
+        raise SimulationError(
+            f"{plant.meaning.source}: load '{plant.meaning.load}' has no static equilibrium in model {plant.meaning.model}; "
+            "check preloads and sprung mass"
+        )
+    _check_travel(plant, data)
+    attach_input(data, None)
+    return data
+
+
+def _newton(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray) -> np.ndarray:
+    """Root by Newton's method with central differences and halved steps, until rounding stops the progress.
+
+    Springs are monotone but have kinks, at the design position and at the stops, where library solvers that trust their
+    model of the function stall; the static load of an axle lies exactly on one whenever the payload leaves it alone.
+    """
+    here = residual(position)
+    for _ in range(100):
+        slope = np.column_stack([(residual(position + h) - residual(position - h)) / 2e-7 for h in 1e-7 * np.eye(len(position))])
+        step = np.linalg.lstsq(slope, -here, rcond=None)[0]
+        for shorter in 0.5 ** np.arange(30):
+            there = residual(position + shorter * step)
+            if np.linalg.norm(there) < np.linalg.norm(here):
+                break
+        else:
+            return position
+        position, here = position + shorter * step, there
+    return position
+
+
+def _rest_states(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Forces at the current position with every inner state at rest, i.e. equal to its element's deflection."""
+    data.qvel[:] = 0.0
+    mujoco.mj_forward(model, data)
+    length = data.actuator_length + data.ctrl
+    for actuator in np.flatnonzero(model.actuator_actadr >= 0):
+        _, _, partner, weight, other, _ = model.actuator_user[actuator][:ACTUATOR_HEADER]
+        deflection = length[actuator] if partner == 0 else weight * length[actuator] + other * length[actuator + int(partner)]
+        data.act[model.actuator_actadr[actuator]] = deflection
+    mujoco.mj_forward(model, data)
+
+
+def _check_travel(plant: Plant, data: mujoco.MjData) -> None:
+    """Refuse an equilibrium on a stop: there the springs do not carry the car."""
+    columns = {
+        "qpos": data.qpos[None],
+        "qvel": data.qvel[None],
+        "qacc": data.qacc[None],
+        "actuator_force": data.actuator_force[None],
+        "input": np.zeros((1, len(plant.meaning.inputs))),
+        "input_rate": np.zeros((1, len(plant.meaning.inputs))),
+    }
+    deflections = {o.station: float(v[0]) for o, v in plant.outputs(columns) if o.quantity == "suspension_deflection"}
+    for travel in plant.meaning.travels:
+        deflection = deflections[travel.station]
+        if not travel.rebound < deflection < travel.compression:
+            raise InputError(
+                f"cannot carry load '{plant.meaning.load}': its equilibrium lies at {1000 * deflection:.1f} mm, outside the travel "
+                f"from {1000 * travel.rebound:.0f} to {1000 * travel.compression:.0f} mm; change preload, rate or load",
+                key=f"{travel.key}.spring",
+                source=plant.meaning.source,
+            )
