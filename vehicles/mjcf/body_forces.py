@@ -1,0 +1,76 @@
+"""What acts on the body itself: lateral and longitudinal acceleration, gravity in roll, the roll rig; its seat channel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from susp_mj.elements import GRAVITY, Overturning, Rig
+from susp_mj.errors import InputError
+
+from ..vehicle import Vehicle
+from .axles import Corner, height_at
+from .parts import Form, ModelBuilder
+
+if TYPE_CHECKING:
+    from .oscillation import Mass, Topology
+
+_RIG_FREQUENCY = 2000.0  # rad/s; stiff against every suspension, soft enough for a step of 1 ms
+
+
+def add_lateral(
+    builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, corners: Sequence[Corner], position: dict[str, Form]
+) -> float | None:
+    """Lateral acceleration a_y of the sprung mass (positive in a left turn), and gravity on the rolling body.
+
+    The inertial force ``-m a_y`` at the centre of gravity rolls the body about the ground with ``m a_y h_cg``. The links
+    carry ``V = m_axle a_y z_rc / t`` between body and wheel, up on the left wheel and down on the right, which leaves the
+    body ``m a_y h`` about the roll axis, h = h_cg - z_rc. Returns m h [kg m].
+    """
+    centre = vehicle.cg_height(load)
+    if "roll" not in position or centre is None or any(corner.axle.roll_centre_height is None for corner in corners):
+        return None
+    lever = moment = 0.0
+    for corner in corners:
+        height = corner.axle.roll_centre_height or 0.0
+        mass = 2 * vehicle.corner_mass(corner.axle_name, load)
+        lever += mass / 2 * (centre - height)
+        moment += mass / 2 * (centre if not topology.sprung_wheels else centre - height)
+        lift = corner.side * mass * height / (corner.axle.track or 1.0)
+        if lift == 0.0:
+            continue
+        if topology.sprung_wheels:  # on the wheel only; its reaction is in the body's moment
+            builder.motor_on(corner.name("link"), corner.name("tyre"), "lateral_acceleration", -lift)
+        else:  # between wheel and body, so that the road's push includes it
+            builder.motor_on(corner.name("link"), corner.name("spring"), "lateral_acceleration", lift)
+            builder.add_terms("wheel_load", corner.station, ("actuator_force", corner.name("link"), -1.0))
+    builder.force("overturning", Overturning(moment=lever * GRAVITY), position["roll"])
+    builder.motor("roll_moment", position["roll"], "lateral_acceleration", moment)
+    return lever
+
+
+def add_longitudinal(builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, mass: Mass, position: dict[str, Form]) -> None:
+    """Longitudinal acceleration a_x of the sprung mass (positive forward): pitch moment ``- m a_x h`` over the ground.
+
+    The axles transmit it without anti-dive or anti-squat; those belong to a model with wheel paths.
+    """
+    height = vehicle.cg_height(load)
+    if "pitch" in position and topology.axles == 2 and height is not None:
+        builder.motor("pitch_moment", position["pitch"], "longitudinal_acceleration", -mass.mass * height)
+
+
+def add_seat(builder: ModelBuilder, vehicle: Vehicle, mass: Mass, position: dict[str, Form]) -> None:
+    """Vertical acceleration at the driver's seat, in models of the whole body."""
+    if vehicle.driver is not None and "pitch" in position and "roll" in position:
+        point = height_at(position, vehicle.driver[0] - mass.x, vehicle.driver[1] - mass.y)
+        builder.output("seat_acceleration", "", *point.terms("qacc", "input"))
+
+
+def add_rig(builder: ModelBuilder, rig: str, position: dict[str, Form], mass: Mass) -> None:
+    """A servo on the body's roll whose target is an input."""
+    if rig != "roll" or "roll" not in position:
+        raise InputError(f"no rig '{rig}' for this model; the rig 'roll' needs a model with roll", key="rig")
+    stiffness = mass.roll_inertia * _RIG_FREQUENCY**2
+    builder.force("roll_rig", Rig(stiffness=stiffness, damping=1.4 * mass.roll_inertia * _RIG_FREQUENCY), position["roll"])
+    builder.drive("roll_target", "roll_rig", -1.0)
+    builder.output("rig_moment", "", ("actuator_force", "roll_rig", 1.0))
