@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -176,14 +176,14 @@ def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool) -> Non
         raise typer.Exit(1)
 
 
-def _guarded(command: object) -> None:
+def _guarded(command: Callable[[], object]) -> None:
     """Run a command; a known error becomes one line and exit code 2, never a traceback.
 
     MuJoCo cannot be imported under a MUJOCO_GL that does not work, and only rendering needs it: it is kept for that.
     """
     os.environ.setdefault("SUSP_MJ_GL", os.environ.pop("MUJOCO_GL", ""))
     try:
-        command()  # type: ignore[operator]
+        command()
     except SuspMjError as error:
         typer.echo(f"{typer.style('error:', fg='red')} {error}", err=True)
         sys.exit(2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
@@ -19,7 +20,7 @@ from .titles import describe, playback_text, signed
 from .window import Window
 
 
-class Hud:
+class Hud(ABC):
     """Everything in a frame that is not a scene: header, labels, numbers, load bars and traces.
 
     A kind of car gives its own `charts` and `gauges`.
@@ -39,13 +40,13 @@ class Hud:
         self.traces = self.charts(Box(0, top, half, strip), Box(half, top, size[0] - half, strip))
         self.background = self._background()
 
+    @abstractmethod
     def charts(self, left: Box, right: Box) -> list[Chart]:
         """Traces under the scenes."""
-        raise NotImplementedError
 
+    @abstractmethod
     def gauges(self, draw: Any, run: Run, box: Box, time: float) -> None:
         """Draw what was measured onto the scene of one configuration."""
-        raise NotImplementedError
 
     def _background(self) -> Any:
         from PIL import Image, ImageDraw

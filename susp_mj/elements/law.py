@@ -60,9 +60,11 @@ def helpers(function: ScalarLaw) -> dict[str, FunctionType]:
         CallbackError: a helper lives in another module; its changes would go unnoticed by the compiler's disk cache.
     """
     found: dict[str, FunctionType] = {}
-    waiting: list[FunctionType] = [function]  # type: ignore[list-item]
+    waiting = [function]
     while waiting:
         current = waiting.pop()
+        if not isinstance(current, FunctionType):
+            raise CallbackError(f"a law must be a plain function, not {type(current).__name__}")
         for name in current.__code__.co_names:
             used = current.__globals__.get(name)
             if not isinstance(used, FunctionType) or name in found:
