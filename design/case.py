@@ -103,8 +103,10 @@ class Case(Description):
                     raise wrong(f"'{name}' unknown; {choices(NUMBERS, name)}", key)
         labels = [each.name for _, each in self.settings]
         for i, label in enumerate(labels):
-            if label in labels[:i]:
-                raise wrong(f"'{label}' names two configurations", f"configuration.{i}.name")
+            taken = {file_name(other).casefold(): other for other in labels[:i]}.get(file_name(label).casefold())
+            if taken is not None:
+                also = "" if taken == label else f" to a file system: '{taken}' is too much like it"
+                raise wrong(f"'{label}' names two configurations{also}", "configuration")
         return self
 
     @property

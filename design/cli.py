@@ -189,6 +189,9 @@ def _guarded(command: Callable[[], object]) -> None:
         sys.exit(2)
     except typer.Exit as leave:
         sys.exit(leave.exit_code)
+    except KeyboardInterrupt:
+        typer.echo("stopped", err=True)
+        sys.exit(130)
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)

@@ -21,6 +21,8 @@ STEP = 1e-3
 """Longest integration step chosen by itself, and spacing of its records [s]."""
 FINEST = 20
 """Into how many steps a millisecond is cut at most without being asked."""
+MOST_STEPS = 10_000_000
+"""Longest run, in steps; its records fit into the memory of a workstation."""
 STABLE = 2.785
 """Runge-Kutta 4 is stable on the negative real axis up to step / time constant = 2.785."""
 
@@ -70,6 +72,13 @@ def simulate(
     _check_step(plant, step)
     install(plant.laws)
 
+    if manoeuvre.duration / step > MOST_STEPS:
+        raise InputError(
+            f"{manoeuvre.duration:g} s is too long for a step of {1000 * step:g} ms; allowed are {MOST_STEPS:.0e} steps, "
+            f"{MOST_STEPS * step:g} s",
+            key="duration",
+            source="manoeuvre",
+        )
     steps = max(round(manoeuvre.duration / step / record_every), 1) * record_every
     samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2))
     block = input_block(samples, step / 2, plant.entries())
