@@ -20,7 +20,7 @@ from evaluation.compare import Claim, Comparison, Configuration, evaluate
 from evaluation.plots import SWEEP_QUANTITIES
 from manoeuvres import MANOEUVRES, VerticalSweep, find_manoeuvre
 from susp_mj.description import Description, validate, wrong
-from susp_mj.errors import InputError, choices
+from susp_mj.errors import InputError, SuspMjError, choices
 from susp_mj.linear import Linear, linearise
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
@@ -250,7 +250,8 @@ def carry_out(
 ) -> Comparison:
     """Run a case and leave ``summary.json``, ``runs/*.nc``, ``plots/*.svg``, ``report.html`` and a video in `out`.
 
-    The folder receives everything at once at the end; after an error it is as it was.
+    The folder receives everything at once at the end; after an error it is as it was. Only a video that fails leaves the
+    other results there, and its error is raised after them.
 
     Args:
         claims: published statements to hold against the results.
@@ -259,14 +260,20 @@ def carry_out(
         InputError, SimulationError: as `run_case`; or `out` cannot be written.
     """
     started = time.perf_counter()
+    no_video: SuspMjError | None = None
     with staged(out) as stage:
         comparison = run_case(case, path, progress)
         if claims is not None:
             comparison = replace(comparison, claims=tuple(claims(comparison)))
         simulated = time.perf_counter() - started
         if video:
-            comparison = replace(comparison, videos=(_make_video(comparison, stage, progress),))
+            try:
+                comparison = replace(comparison, videos=(_make_video(comparison, stage, progress),))
+            except SuspMjError as error:
+                no_video = error
         _write_results(comparison, stage, {"simulate_s": round(simulated, 3)}, progress)
+    if no_video is not None:
+        raise no_video
     return comparison
 
 
@@ -303,7 +310,7 @@ def file_name(label: str) -> str:
 
 @contextmanager
 def staged(out: Path) -> Iterator[Path]:
-    """A folder to write into; on success its contents move into `out`, on any error nothing of it remains.
+    """A folder to write into; on success its contents replace earlier results in `out`, on any error nothing of it remains.
 
     Raises:
         InputError: `out` cannot be written.
@@ -317,6 +324,7 @@ def staged(out: Path) -> Iterator[Path]:
         except OSError as error:
             raise InputError(f"cannot be written: {error.strerror}", source=str(out)) from None
         yield stage
+        _clear(out)
         for item in sorted(stage.rglob("*")):
             if item.is_file():
                 target = out / item.relative_to(stage)
@@ -331,3 +339,11 @@ def staged(out: Path) -> Iterator[Path]:
         for folder in created:
             if folder.is_dir() and not any(folder.iterdir()):
                 folder.rmdir()
+
+
+def _clear(out: Path) -> None:
+    """Take the results of an earlier run away, and nothing else."""
+    if (out / "summary.json").is_file():
+        for pattern in ("summary.json", "report.html", "video.mp4", "runs/*.nc", "plots/*.svg"):
+            for file in out.glob(pattern):
+                file.unlink()

@@ -49,14 +49,26 @@ def demo(out: Out = Path("out/demo"), video: Annotated[bool, typer.Option(help="
 @app.command()
 def run(
     case: Annotated[str, typer.Argument(help="Case file, or the name of a shipped case ('susp-mj list').")],
-    out: Out = Path("out"),
+    out: Annotated[Path | None, typer.Option("--out", "-o", help="Folder for the results; default out/CASE.")] = None,
     video: Video = False,
     strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 if a criterion is not met.")] = False,
 ) -> None:
     """Run a case file: simulate every configuration, evaluate, compare, report."""
     from .case import load_case
 
-    _run(*load_case(case), out, video=video, strict=strict)
+    loaded, path = load_case(case)
+    _run(loaded, path, out or Path("out") / path.stem, video=video, strict=strict)
+
+
+@app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []})
+def drive(context: typer.Context, manoeuvre: Annotated[str, typer.Argument(help="Manoeuvre, see 'susp-mj list'.")]) -> None:
+    """Drive one manoeuvre on named configurations: susp-mj drive bump --help."""
+    from manoeuvres import find_manoeuvre
+
+    from .script import case_from_arguments
+
+    case, path, out, video = case_from_arguments(find_manoeuvre(manoeuvre), context.args)
+    _run(case, path, out, video=video, strict=False)
 
 
 @app.command()
@@ -107,7 +119,8 @@ def modes(
     from .show import print_modes
 
     vehicle = load_vehicle(car, characteristics)
-    print_modes(linearise(build(vehicle.without_friction(), model, load, axle)), f"{vehicle.title}, {model}, load {load}")
+    title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, model, f"load {load}") if part)
+    print_modes(linearise(build(vehicle.without_friction(), model, load, axle)), title)
 
 
 @app.command("list")

@@ -182,7 +182,7 @@ def _print_pairs(title: str, pairs: dict[str, str]) -> None:
 
 
 def _first_line(thing: object) -> str:
-    return (thing.__doc__ or "").split("\n")[0]
+    return (thing.__doc__ or "").split("\n")[0].replace("``", "")
 
 
 def _cell(number: Number, verdict: dict[str, object] | None) -> Text:

@@ -29,6 +29,8 @@ def roll_angle_max(run: Run) -> Number:
         return _without("roll_angle", "rad")
     roll = run["roll_angle"] - run["roll_angle"][0]
     at = int(np.argmax(np.abs(roll)))
+    if abs(roll[at]) < 1e-9:
+        return Number(0.0, "rad", "does not roll")
     side = "left side up" if roll[at] > 0 else "right side up"
     return Number(abs(float(roll[at])), "rad", f"{side} at {run.time[at]:.3f} s")
 
@@ -37,6 +39,8 @@ def roll_angle_final(run: Run) -> Number:
     """Roll at the end of the run, from the initial attitude [rad], positive left side up."""
     if "roll_angle" not in run:
         return _without("roll_angle", "rad")
+    if not _is_held(run):
+        return _not_held("rad")
     return Number(float(run["roll_angle"][-1] - run["roll_angle"][0]), "rad")
 
 
@@ -49,6 +53,8 @@ def roll_gradient(run: Run) -> Number:
 
 def load_share_front(run: Run) -> Number:
     """Front axle's share of the wheel loads at the end of the run."""
+    if not _is_held(run):
+        return _not_held("1")
     loads = {station: load[-1] for station, load in run.stations("wheel_load").items()}
     front = sum(load for station, load in loads.items() if station.startswith("f"))
     if not front or front == sum(loads.values()):
@@ -127,8 +133,19 @@ def _bar(run: Run, axle: str) -> Number:
     return Number(rate, "N/m", words)
 
 
+def _is_held(run: Run) -> bool:
+    """Whether something drives the body and is held at the end, so that the end of the run is a state and not an instant."""
+    return any(name in run and run[name][-1] != 0.0 for name in ("lateral_acceleration", "longitudinal_acceleration", "roll_target"))
+
+
+def _not_held(unit: str) -> Number:
+    return Number(None, unit, "needs a held force or angle", applies=False)
+
+
 def _transfer(run: Run, left: str, right: str) -> Number:
     loads = run.stations("wheel_load")
+    if not _is_held(run):
+        return _not_held("N")
     if left not in loads or right not in loads:
         return Number(None, "N", "needs both wheels of the axle", applies=False)
     difference = loads[right] - loads[left]

@@ -191,6 +191,9 @@ def _weighted_channel(run: Run, channel: str, unit: str) -> np.ndarray | Number:
         return Number(None, unit, f"the model has no {channel}", applies=False)
     if len(run.time) < 2:
         return Number(None, unit, "the run is a single instant", applies=False)
+    roads = run.stations("road_height").values()
+    if roads and not any(np.ptp(road) > 0 for road in roads):
+        return Number(None, unit, "needs a road that shakes the car", applies=False)
     try:
         return weighted(run[channel], run.step, WEIGHTINGS["Wk"])
     except InputError as error:

@@ -119,7 +119,9 @@ def roll_amplification(run: Run) -> Number:
 
 
 def wheel_resonance(run: Run) -> Number:
-    """Frequency of the largest wheel load amplitude per metre of road [Hz]."""
+    """Frequency of the largest wheel load amplitude per metre of road, for wheels with mass [Hz]."""
+    if not run.stations("wheel_displacement"):
+        return Number(None, "Hz", "the wheels have no mass", applies=False)
     return _peak(run, "wheel_load", "Hz", place=True)
 
 

@@ -21,7 +21,7 @@ from susp_mj.names import QUANTITIES, channel_name
 from .colours import COLOURS
 from .display import shown
 from .frequency import amplification
-from .ride import CONTACT_LOST
+from .ride import CONTACT_LOST, INPUTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -139,12 +139,17 @@ def time_plots(comparison: Comparison) -> dict[str, str]:
     plots: dict[str, str] = {}
     for quantity in TIME_QUANTITIES:
         stations = _stations(configurations, quantity)
-        if stations:
+        if stations and not (quantity in INPUTS and _stands_still(configurations, quantity)):
             plots[quantity] = _drawn(_time_figure, configurations, [(quantity, station) for station in stations])
     forces = [(quantity, station) for quantity in ELEMENT_FORCES for station in _acting(configurations, quantity)]
     if forces:
         plots["element_forces"] = _drawn(_time_figure, configurations, forces)
     return plots
+
+
+def _stands_still(configurations: Sequence[Configuration], quantity: str) -> bool:
+    """Whether an input is not used in any configuration."""
+    return all(np.ptp(values) < 1e-12 for each in configurations for values in each.run.stations(quantity).values())
 
 
 def _acting(configurations: Sequence[Configuration], quantity: str) -> list[str]:

@@ -18,6 +18,8 @@ from .number import Number
 
 SETTLED_BAND = 0.05
 """Half-width of the settling band, as a share of the largest departure from the final value."""
+INPUTS = ("road_height", "lateral_acceleration", "longitudinal_acceleration", "roll_target")
+"""Quantities that drive a run."""
 CONTACT_LOST = 1e-6
 """Wheel load [N] at or below which the wheel counts as off the road."""
 
@@ -55,8 +57,8 @@ def overshoot(run: Run) -> Number:
     """
     if "body_displacement" not in run:
         return _missing("body_displacement", "1")
-    if "excitation_phase" in run:
-        return Number(None, "1", "a sweep has no final height", applies=False)
+    if not _comes_to_rest(run):
+        return Number(None, "1", "the road never comes to rest", applies=False)
     displacement = run["body_displacement"] - run["body_displacement"][0]
     final = _final(displacement)
     if abs(final) < 0.1 * float(np.abs(displacement).max()) or final == 0.0:
@@ -65,11 +67,11 @@ def overshoot(run: Run) -> Number:
 
 
 def settling_time(run: Run) -> Number:
-    """Time from the first road input until the body stays within ±5 % of its largest departure from the final height [s]."""
+    """Time from the first input until the body stays within ±5 % of its largest departure from the final height [s]."""
     if "body_displacement" not in run:
         return _missing("body_displacement", "s")
-    if "excitation_phase" in run:
-        return Number(None, "s", "a sweep does not settle", applies=False)
+    if not _comes_to_rest(run):
+        return Number(None, "s", "the road never comes to rest", applies=False)
     displacement = run["body_displacement"]
     start = _first_input(run)
     departure = np.abs(displacement - _final(displacement))
@@ -100,7 +102,8 @@ def wheel_load_rms(run: Run) -> Number:
 def contact_loss_time(run: Run) -> Number:
     """Time for which a wheel is off the road, summed over the run [s]."""
     off = {station: float(np.sum(load <= CONTACT_LOST)) * run.step for station, load in run.stations("wheel_load").items()}
-    return _choose(off, "s", max)
+    found = _choose(off, "s", max)
+    return Number(0.0, "s", "the wheels keep contact") if found.value == 0.0 else found
 
 
 def contact_loss_instant(run: Run) -> Number:
@@ -189,8 +192,14 @@ def _final(values: np.ndarray) -> float:
     return float(values[-max(len(values) // 50, 1) :].mean())
 
 
+def _comes_to_rest(run: Run) -> bool:
+    """Whether the road stands still over the last 2 % of the run."""
+    return all(np.ptp(road[-max(len(road) // 50, 2) :]) == 0.0 for road in run.stations("road_height").values())
+
+
 def _first_input(run: Run) -> int | None:
-    """Index of the last sample before any road input moves."""
-    moved = [np.flatnonzero(road != road[0]) for road in run.stations("road_height").values()]
+    """Index of the last sample before any input moves, of the road or at the body."""
+    inputs = [values for quantity in INPUTS for values in run.stations(quantity).values()]
+    moved = [np.flatnonzero(values != values[0]) for values in inputs]
     starts = [int(each[0]) for each in moved if len(each)]
     return max(min(starts) - 1, 0) if starts else None

@@ -50,16 +50,20 @@ class CarHud(Hud):
             self.alarm(draw, box, f"LIFT  {' '.join(lifted)}")
 
     def _angles(self, draw: Any, run: Run, box: Box, time: float) -> None:
-        s = self.scale
+        s, outlined = self.scale, {"stroke_width": 2 * self.scale, "stroke_fill": PAPER}
         shown = [(ANGLES[quantity], signed(float(np.degrees(at(run, quantity, time))), "°")) for quantity in ANGLES if quantity in run]
         if box.height < _SMALL * s:
             text = "   ".join(f"{name} {value}" for name, value in shown)
-            draw.text((box.left + 18 * s, box.top + 114 * s), text, INK, typeface(12.5 * s), anchor="ls")
+            draw.text(
+                (box.left + 18 * s, box.top + 114 * s), text, INK, typeface(12.5 * s), anchor="ls", stroke_width=2 * s, stroke_fill=PAPER
+            )
             return
         for row, (name, value) in enumerate(shown):
             base = box.top + (122 + 24 * row) * s
-            draw.text((box.left + 18 * s, base), name, SOFT, typeface(12.5 * s), anchor="ls")
-            draw.text((box.left + 112 * s, base), value, INK, typeface(16 * s, bold=True), anchor="rs")
+            draw.text((box.left + 18 * s, base), name, SOFT, typeface(12.5 * s), anchor="ls", **outlined)
+            draw.text(
+                (box.left + 112 * s, base), value, INK, typeface(16 * s, bold=True), anchor="rs", stroke_width=2 * s, stroke_fill=PAPER
+            )
 
     def _loads(self, draw: Any, run: Run, box: Box, time: float) -> list[str]:
         """Draw the load bars; returns the stations that are off the road."""

@@ -98,7 +98,7 @@ class Hud(ABC):
         tone = rgb(LIFTED) if lifted else mixed((38, 140, 88), (235, 150, 20), float(np.clip(2 - load / max(static, 1.0), 0.0, 1.0)))
         draw.rounded_rectangle([left, top, right, base], 4 * s, (255, 255, 255), rgb(LIFTED) if lifted else SOFT, max(round(s), 1))
         filled = height * min(load / full, 1.0)
-        if filled >= 1:
+        if filled >= 2 * s + 1:
             draw.rectangle([left + 3 * s, base - filled, right - 3 * s, base - 2 * s], tone)
         mark = base - height * static / full
         draw.line([left - 5 * s, mark, right + 5 * s, mark], INK, max(round(1.5 * s), 1))
