@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from evaluation import NUMBERS, Criterion, Number
 from evaluation.characteristics import characteristic
@@ -43,6 +43,12 @@ class Band(Description):
     max: float | str | None = None
 
 
+def _printable(text: str) -> str:
+    if not text.isprintable():
+        raise wrong(f"{text!r} has characters that cannot be shown")
+    return text
+
+
 class Setting(Description):
     """One configuration of a case.
 
@@ -55,10 +61,10 @@ class Setting(Description):
         set: overrides by dotted path, as a vehicle file would have them.
     """
 
-    name: str = Field(min_length=1)
+    name: Annotated[str, AfterValidator(_printable)] = Field(min_length=1, max_length=80)
     vehicle: str
     characteristics: str | None = None
-    load: str | tuple[str, ...] = DESIGN_LOAD
+    load: str | Annotated[tuple[str, ...], Field(min_length=1)] = DESIGN_LOAD
     axle: str | None = None
     set: dict[str, Any] = Field(default_factory=dict)
 
@@ -315,10 +321,11 @@ def staged(out: Path) -> Iterator[Path]:
     Raises:
         InputError: `out` cannot be written.
     """
-    created = [folder for folder in (out, *out.parents) if not folder.exists()]
+    created: list[Path] = []
     stage: Path | None = None
     try:
         try:
+            created = [folder for folder in (out, *out.parents) if not folder.exists()]
             out.mkdir(parents=True, exist_ok=True)
             stage = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=out))
         except OSError as error:

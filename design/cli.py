@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Callable, Iterator
@@ -195,6 +196,10 @@ def _guarded(command: Callable[[], object]) -> None:
     MuJoCo cannot be imported under a MUJOCO_GL that does not work, and only rendering needs it: it is kept for that.
     """
     os.environ.setdefault("SUSP_MJ_GL", os.environ.pop("MUJOCO_GL", ""))
+    os.environ.pop("MPLBACKEND", None)  # plots choose their own
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
     try:
         command()
     except SuspMjError as error:

@@ -14,7 +14,7 @@ from susp_mj.units import unit_of
 from vehicles.mjcf import MODELS
 from vehicles.vehicle import DESIGN_LOAD
 
-from .case import Case, Setting
+from .case import Case
 
 DEFAULT_VEHICLE, DEFAULT_MODEL = "chapter3", "quarter_2dof"
 
@@ -29,7 +29,7 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
     parameters = {name: options[name] for name in manoeuvre.model_fields if options.get(name) is not None}
     vehicles = options["vehicle"] or [DEFAULT_VEHICLE]
     settings = [
-        Setting(
+        dict(
             name=_label(vehicles, vehicle, sets, load, options["load"]),
             vehicle=_absolute(vehicle),
             characteristics=sets,
@@ -43,10 +43,10 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
     case = validate(
         Case,
         {
-            "title": f"{kind}: {', '.join(each.name for each in settings)}",
+            "title": f"{kind}: {', '.join(str(each['name']) for each in settings)}",
             "model": options["model"],
             "manoeuvre": {**parameters, "kind": kind},
-            "configuration": [each.model_dump() for each in settings],
+            "configuration": settings,
         },
         source=f"{kind}.py",
     )
@@ -76,7 +76,8 @@ def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
         if name != "kind":
             unit = unit_of(field.metadata)
             text = f"default {field.default}{' ' + unit if unit else ''}"
-            group.add_argument(f"--{name.replace('_', '-')}", dest=name, type=_value, help=text, metavar=unit or "VALUE")
+            several = "+" if "tuple" in str(field.annotation) else None
+            group.add_argument(f"--{name.replace('_', '-')}", dest=name, type=_value, nargs=several, help=text, metavar=unit or "VALUE")
     return parser
 
 

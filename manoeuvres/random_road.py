@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import model_validator
 
 from susp_mj.description import wrong
+from susp_mj.errors import InputError
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import ROAD_CLASSES, RandomTracks
@@ -56,6 +57,8 @@ class RandomRoad(Manoeuvre):
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
         if place.quantity != "road_height":
             return None
+        if self.speed * float(time[-1]) > 1e6 or self.longest > 1e5:
+            raise InputError("is too long; allowed are 1000 km of road and waves of 100 km", key="speed", source="manoeuvre")
         length = self.speed * float(time[-1]) + self.longest
         tracks = _tracks(self.road_class, length, self.longest, self.shortest, self.lead_in, self.seed)
         height, slope = tracks.at(self.speed * time + place.x, place.y)

@@ -58,6 +58,8 @@ def _newton(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray) 
     here = residual(position)
     for _ in range(100):
         slope = np.column_stack([(residual(position + h) - residual(position - h)) / 2e-7 for h in 1e-7 * np.eye(len(position))])
+        if not np.isfinite(slope).all():
+            return position
         step = np.linalg.lstsq(slope, -here, rcond=None)[0]
         for shorter in 0.5 ** np.arange(30):
             there = residual(position + shorter * step)
@@ -91,6 +93,13 @@ def _check_travel(plant: Plant, data: mujoco.MjData) -> None:
         "input": np.zeros((1, len(plant.meaning.inputs))),
         "input_rate": np.zeros((1, len(plant.meaning.inputs))),
     }
+    for output, values in plant.outputs(columns):
+        if output.quantity == "wheel_load" and not values[0] > 0:
+            raise InputError(
+                f"the car tips over at rest: wheel {output.station or 'load'} would have to be pulled down by {-values[0]:.0f} N",
+                key=f"loads.{plant.meaning.load}",
+                source=plant.meaning.source,
+            )
     deflections = {o.station: float(v[0]) for o, v in plant.outputs(columns) if o.quantity == "suspension_deflection"}
     for travel in plant.meaning.travels:
         deflection = deflections[travel.station]

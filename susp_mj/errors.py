@@ -21,7 +21,8 @@ class InputError(SuspMjError):
 
     def __init__(self, message: str, *, key: str = "", source: str = "") -> None:
         self.message, self.key, self.source = message, key, source
-        super().__init__(": ".join(part for part in (source, key, message) if part))
+        text = ": ".join(part for part in (source, key, message) if part)
+        super().__init__("".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text))
 
     def within(self, *, key: str = "", source: str = "") -> InputError:
         """The same error seen from one level further out: `key` is put in front, `source` filled in if unknown."""

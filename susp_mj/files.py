@@ -20,6 +20,8 @@ def whole(path: str | Path) -> Iterator[Path]:
         InputError: the place cannot be written.
     """
     path = Path(path)
+    if not path.name or (path.exists() and not path.is_file()):
+        raise InputError("cannot be written: it is not a file", source=str(path))
     unfinished = path.with_name(path.name + ".part")
     done = False
     try:

@@ -53,12 +53,16 @@ class Travel:
 
 @dataclass(frozen=True)
 class TimeConstant:
-    """An inner state's fastest time constant [s] and the value in the vehicle file that causes it."""
+    """A time constant [s] that the step must not exceed by much, and the value in the vehicle file that causes it.
+
+    The time constant is proportional to ``value ** (-1/power)``.
+    """
 
     seconds: float
     value: float
     unit: str
     key: str
+    power: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -53,6 +53,7 @@ class Plant:
             raise InputError("no such file", source=str(path))
         try:
             spec = mujoco.MjSpec.from_file(str(path))
+            _check_partners(spec, str(path))
             spec.nuserdata = max(spec.nuserdata, USERDATA_HEADER + len(spec.actuators))  # actuators may have been added by hand
             model = spec.compile()
         except ValueError as error:
@@ -61,9 +62,13 @@ class Plant:
         text = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_TEXT, META)
         if text < 0:
             raise InputError(f"is not a model that susp-mj built: it has no custom text '{META}'", source=str(path))
-        _check_partners(model, str(path))
         data = model.text_data[model.text_adr[text] : model.text_adr[text] + model.text_size[text]]
-        return cls(model, Meaning.from_json(bytes(data).rstrip(b"\0").decode()))
+        try:
+            return cls(model, Meaning.from_json(bytes(data).rstrip(b"\0").decode()))
+        except (ValueError, KeyError, TypeError) as error:
+            raise InputError(
+                f"is not a model that susp-mj built: its custom text '{META}' is broken: {error!r}", source=str(path)
+            ) from None
 
     @cached_property
     def laws(self) -> tuple[int, ...]:
@@ -102,18 +107,21 @@ class Plant:
         return results
 
 
-def _check_partners(model: mujoco.MjModel, source: str) -> None:
-    """Refuse a file in which an element's other half is not where its parameters say."""
-    for i, user in enumerate(model.actuator_user):
-        if len(user) >= ACTUATOR_HEADER and user[0] == ACTUATOR_MARK and user[2] != 0.0:
-            partner = i + int(user[2])
-            inside = 0 <= partner < model.nu
-            if not inside or model.actuator_user[partner][1] != user[1] or partner + int(model.actuator_user[partner][2]) != i:
-                raise InputError(
-                    f"its partner is not {int(user[2])} actuators further on; keep the order of the two",
-                    key=f"actuator '{model.actuator(i).name}'",
-                    source=source,
-                )
+def _check_partners(spec: mujoco.MjSpec, source: str) -> None:
+    """Refuse a file in which an element's other half is not where its parameters say, before anything is computed with it."""
+    users = [list(actuator.userdata) for actuator in spec.actuators]
+    for i, user in enumerate(users):
+        if len(user) < ACTUATOR_HEADER or user[0] != ACTUATOR_MARK:
+            continue
+        whole = np.isfinite(user).all() and abs(user[2]) < len(users)
+        partner = i + int(user[2]) if whole else -1
+        inside = 0 <= partner < len(users) and len(users[partner]) >= ACTUATOR_HEADER
+        if not inside or users[partner][1] != user[1] or partner + users[partner][2] != i:
+            raise InputError(
+                "its partner is not where its parameters say; keep the order of the two",
+                key=f"actuator '{spec.actuators[i].name}'",
+                source=source,
+            )
 
 
 def write_mjcf(spec: mujoco.MjSpec, meaning: Meaning, path: str | Path) -> Path:

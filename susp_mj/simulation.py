@@ -79,6 +79,12 @@ def simulate(
             key="duration",
             source="manoeuvre",
         )
+    if record_every * step > manoeuvre.duration:
+        raise InputError(
+            f"{record_every} is not allowed; a run of {manoeuvre.duration:g} s has {int(manoeuvre.duration / step)} steps",
+            key="record_every",
+            source="simulate",
+        )
     steps = max(round(manoeuvre.duration / step / record_every), 1) * record_every
     samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2))
     block = input_block(samples, step / 2, plant.entries())
@@ -105,7 +111,7 @@ def simulate(
             progress(done / steps)
     time = np.arange(rows) * (step * record_every)
     run = _as_run(plant, manoeuvre, time, records[:rows], samples[:: 2 * record_every][:rows], step)
-    if not sound:
+    if not sound or any(warning.number for warning in data.warning):
         raise SimulationError(_diverged(run, step))
     return run
 
@@ -151,7 +157,7 @@ def _check_step(plant: Plant, step: float) -> None:
             raise InputError(
                 f"{constant.value:g} {constant.unit} is too stiff for a step of {1000 * step:g} ms "
                 f"(time constant {1000 * constant.seconds:.3g} ms); "
-                f"allowed is at most {constant.value * STABLE * constant.seconds / step:.3g} {constant.unit}, "
+                f"allowed is at most {constant.value * (STABLE * constant.seconds / step) ** constant.power:.3g} {constant.unit}, "
                 f"or a step of at most {1000 * STABLE * constant.seconds:.3g} ms",
                 key=constant.key,
                 source=plant.meaning.source,

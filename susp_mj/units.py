@@ -48,6 +48,8 @@ _UNITS: dict[str, tuple[float, tuple[int, int, int, int]]] = {
     "W": (1.0, (2, 1, -3, 0)),
     "kW": (1e3, (2, 1, -3, 0)),
 }
+LARGEST = 1e15
+"""Largest magnitude of any quantity, in SI units."""
 _SUPERSCRIPT = str.maketrans({"²": "^2", "³": "^3", "·": " ", "*": " ", "−": "-"})
 _NUMBER = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
 _FACTOR = re.compile(r"^([A-Za-z°%1]*?)(?:\^?(-?\d))?$")
@@ -102,9 +104,11 @@ def to_si(value: Any, unit: str) -> float:
             raise ValueError(f"'{value}' has the wrong unit; expected one like {unit or 'none'}")
         number = float(match[1]) * factor
     else:
-        number = float(value)
+        number = float(value) if abs(value) < LARGEST or not isinstance(value, int) else math.inf
     if not math.isfinite(number):
-        raise ValueError(f"{value!r} is not a finite number")
+        raise ValueError(f"{str(value)[:40]} is not a finite number")
+    if abs(number) > LARGEST:
+        raise ValueError(f"{str(value)[:40]} is beyond anything a car has; at most {LARGEST:g} {unit}".rstrip())
     return number
 
 
@@ -147,7 +151,8 @@ NonNegativeStiffness = Annotated[float, Quantity("N/m", ge=0)]
 Damping = Annotated[float, Quantity("N s/m", gt=0)]
 Acceleration = Annotated[float, Quantity("m/s²")]
 NonNegativeLength = Annotated[float, Quantity("m", ge=0)]
-Frequency = Annotated[float, Quantity("Hz", gt=0)]
+Frequency = Annotated[float, Quantity("Hz", gt=0, le=500)]
+NaturalFrequency = Annotated[float, Quantity("Hz", gt=0, le=20)]
 Speed = Annotated[float, Quantity("m/s")]
 PositiveSpeed = Annotated[float, Quantity("m/s", gt=0)]
 Time = Annotated[float, Quantity("s", ge=0)]

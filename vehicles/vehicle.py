@@ -228,6 +228,10 @@ def load_vehicle(name: str | Path, characteristics: str | None = None, overrides
     elif sets:
         raise InputError(f"choose a set of characteristics: {', '.join(sets)}", key="characteristics", source=path.name)
     for key, value in (overrides or {}).items():
+        if key.split(".")[0] in ("characteristics", "default", ""):
+            raise InputError(
+                "cannot be overridden; write the path as it stands below a set, like rear.damper.ratio", key=key, source=path.name
+            )
         set_by_path(data, key, value, source=path.name)
     for reserved in ("name", "source"):
         if reserved in data:
@@ -238,6 +242,8 @@ def load_vehicle(name: str | Path, characteristics: str | None = None, overrides
 def characteristic_sets(name: str | Path) -> dict[str, str]:
     """Names and titles of the sets of characteristics in a vehicle file; empty if it has one car only."""
     sets = read_toml(find_vehicle(name)).get("characteristics", {})
+    if not isinstance(sets, dict) or not all(isinstance(each, dict) for each in sets.values()):
+        raise InputError("must hold one table for each set", key="characteristics", source=str(name))
     return {key: str(value.get("title", key)) for key, value in sets.items()}
 
 
@@ -254,6 +260,8 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError("no such file", source=str(path)) from None
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"cannot be read: {error}", source=str(path)) from None
+    except RecursionError:
+        raise InputError("is nested too deeply", source=path.name) from None
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"is not TOML: {error}", source=path.name) from None
 
@@ -269,13 +277,13 @@ def set_by_path(data: dict[str, Any], path: str, value: Any, *, source: str) -> 
     for depth, part in enumerate(parents):
         if isinstance(here, dict):
             here = here.setdefault(part, {})
-        elif isinstance(here, list) and part.isdigit() and int(part) < len(here):
+        elif isinstance(here, list) and part.isdecimal() and int(part) < len(here):
             here = here[int(part)]
         else:
             raise InputError(f"'{'.'.join(parents[: depth + 1])}' is not a table", key=path, source=source)
     if isinstance(here, dict):
         here[last] = value
-    elif isinstance(here, list) and last.isdigit() and int(last) < len(here):
+    elif isinstance(here, list) and last.isdecimal() and int(last) < len(here):
         here[int(last)] = value
     else:
         raise InputError(f"'{'.'.join(parents)}' is not a table", key=path, source=source)
@@ -300,8 +308,12 @@ def find_vehicle(name: str | Path) -> Path:
     text = str(name)
     if text.endswith(".toml"):
         path = Path(text)
-        if not path.is_file():
-            raise InputError("no such file", source=text)
+        try:
+            there = path.is_file()
+        except (OSError, ValueError):
+            there = False
+        if not there:
+            raise InputError("no such file", source=text[:100])
         return path
     if text not in available_vehicles():
         raise InputError(f"no vehicle '{text}'; {choices(available_vehicles(), text)}, or give a .toml file", key="vehicle")

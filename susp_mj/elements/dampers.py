@@ -154,8 +154,9 @@ class ZonedDamper(Damper):
                 value = (float(parts[0]), float(parts[1])) if len(parts) == 2 else None
             except ValueError:
                 value = None
-        if not isinstance(value, (tuple, list)) or len(value) != 2 or not all(0 < part < np.inf for part in value):
-            raise wrong("write the ratio of compression to rebound as two positive numbers, like '1:2'")
+        numbers = isinstance(value, (tuple, list)) and len(value) == 2 and all(type(part) in (int, float) for part in value)
+        if not numbers or not all(1e-3 <= part <= 1e3 for part in value):
+            raise wrong("write the ratio of compression to rebound as two numbers from 0.001 to 1000, like '1:2'")
         return tuple(value)
 
     @model_validator(mode="after")

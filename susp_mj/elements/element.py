@@ -55,7 +55,7 @@ def chosen_from(kinds: Mapping[str, type[ElementType]]) -> BeforeValidator:
         kind = data.get("kind")
         if kind is None:
             raise PydanticCustomError("unknown_kind", "is required; {text}", {"text": choices(kinds), "key": "kind"})
-        if kind not in kinds:
+        if not isinstance(kind, str) or kind not in kinds:
             text = f"'{kind}' unknown; {choices(kinds, kind)}"
             raise PydanticCustomError("unknown_kind", "{text}", {"text": text, "key": "kind"})
         return kinds[kind].model_validate(data)

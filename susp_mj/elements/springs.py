@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from pydantic import Field, model_validator
 
 from ..description import wrong
-from ..units import Frequency, NonNegativeForce, PositiveForce, Quantity, Stiffness
+from ..units import NaturalFrequency, NonNegativeForce, PositiveForce, Quantity, Stiffness
 from .element import Element, FloatArray, chosen_from
 from .law import Law, Parameters
 from .stops import Stops
@@ -134,7 +134,7 @@ class LinearSpring(Spring):
     law: ClassVar[Law] = Law("linear_spring", linear_force)
 
     kind: Literal["linear"] = "linear"
-    frequency: Frequency | None = None
+    frequency: NaturalFrequency | None = None
     rate: Stiffness | None = None
 
     @model_validator(mode="after")
@@ -163,7 +163,7 @@ class ConstantFrequencySpring(Spring):
     law: ClassVar[Law] = Law("constant_frequency_spring", constant_frequency_force)
 
     kind: Literal["constant_frequency"] = "constant_frequency"
-    frequency: Frequency
+    frequency: NaturalFrequency
 
     def parameters(self) -> tuple[float, ...]:
         growth = (2 * math.pi * self.frequency) ** 2 / GRAVITY
@@ -189,7 +189,7 @@ class ProgressiveSpring(Spring):
     law: ClassVar[Law] = Law("progressive_spring", progressive_force)
 
     kind: Literal["progressive"] = "progressive"
-    frequency: Frequency
+    frequency: NaturalFrequency
     rebound_force: NonNegativeForce
     compression_force: PositiveForce | None = None
     progressive_from: Annotated[float, Quantity("m", ge=0)] = 0.0

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import mujoco
+import numpy as np
 
 from susp_mj.elements import AntiRollBar, Element
 from susp_mj.errors import InputError
@@ -99,6 +101,29 @@ def _suspension(builder: ModelBuilder, corner: Corner, deflection: Form, *, leve
         builder.output(f"{part}_force", corner.station, ("actuator_force", corner.name(part), -1.0))
     _travel_outputs(builder, corner, deflection)
     return [corner.name(part) for part in elements]
+
+
+def note_stiffness(builder: ModelBuilder, corner: Corner, mass: float, *, tyre: bool) -> None:
+    """Time constants of a corner's rates on the mass [kg] that feels them: ``m/c`` of dampers, ``sqrt(m/k)`` of springs."""
+    axle, where = corner.axle, corner.axle_name
+    arctan_slope = 2 / math.pi * 201.7
+    if axle.friction is not None:
+        force = axle.friction.force
+        builder.resolve(f"{where}.friction.force", force, "N", mass / (arctan_slope * force))
+    if axle.damper.mount is None:
+        slopes = [np.diff(force) / np.diff(speed) for speed, force in axle.damper.branches()]
+        steepest = float(max(each.max() for each in slopes))
+        builder.resolve(f"{where}.damper", steepest, "N s/m", mass / steepest)
+        if axle.damper.friction > 0:
+            builder.resolve(f"{where}.damper.friction", axle.damper.friction, "N", mass / (arctan_slope * axle.damper.friction))
+    stops = axle.spring.stops
+    travel = np.linspace(stops.rebound, stops.compression, 101)
+    stiffness = {"spring": float(np.abs(axle.spring.rate_at(travel)).max()), "spring.stops.rate": stops.rate}
+    if tyre:
+        stiffness["tyre"] = float((axle.tyre.evaluate(0.001) - axle.tyre.evaluate(0.0)) / 0.001) if axle.tyre else 0.0
+    for part, rate in stiffness.items():
+        if rate > 0:
+            builder.resolve(f"{where}.{part}", rate, "N/m", math.sqrt(mass / rate), power=2.0)
 
 
 def _travel_outputs(builder: ModelBuilder, corner: Corner, deflection: Form) -> None:

@@ -18,7 +18,7 @@ from susp_mj.meaning import Meaning
 from susp_mj.plant import Plant, write_mjcf
 
 from ..vehicle import DESIGN_LOAD, Vehicle
-from .axles import BODY_HEIGHT, Corner, add_axle
+from .axles import BODY_HEIGHT, Corner, add_axle, note_stiffness
 from .body_forces import add_lateral, add_longitudinal, add_rig, add_seat
 from .parts import POINT_MASS, Form, ModelBuilder
 
@@ -91,6 +91,8 @@ def specification(
     builder = ModelBuilder(f"{vehicle.name}_{model}", vehicle.source)
     only = axle or ("rear" if vehicle.rear is not None else "front")
     axles = ["front", "rear"] if topology.axles == 2 else [only]
+    if topology.axles == 2 and axle is not None:
+        raise InputError(f"'{axle}' is not allowed; model {model} has both axles", key="axle")
     for name in axles:
         vehicle.axle(name)
     mass = Mass.of(vehicle, topology, load, axles, model)
@@ -98,6 +100,9 @@ def specification(
     corners = _corners(builder, vehicle, topology, axles, mass)
     for group in (corners[i : i + topology.sides] for i in range(0, len(corners), topology.sides)):
         add_axle(builder, topology, body, position, group)
+    for corner in corners:
+        felt = (corner.axle.unsprung_mass or 0.0) if topology.sprung_wheels else vehicle.corner_mass(corner.axle_name, load)
+        note_stiffness(builder, corner, felt, tyre=topology.sprung_wheels)
     roll_lever = add_lateral(builder, vehicle, topology, load, corners, position)
     add_longitudinal(builder, vehicle, topology, load, mass, position)
     add_seat(builder, vehicle, mass, position)

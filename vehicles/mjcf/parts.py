@@ -188,6 +188,12 @@ class ModelBuilder:
         self.travels.append(Travel(station, stops.rebound, stops.compression, axle_name))
         self._note_time_constant(axle.damper, axle_name)
 
+    def resolve(self, key: str, value: float, unit: str, seconds: float, power: float = 1.0) -> None:
+        """Remember a time constant that the step must resolve: a rate acting on a mass, or a stiffness (power 2)."""
+        constant = TimeConstant(seconds, value, unit, key, power)
+        if constant not in self.time_constants:
+            self.time_constants.append(constant)
+
     def _note_time_constant(self, damper: Damper, axle_name: str) -> None:
         """Remember the damper's time constant, which limits the step."""
         seconds = damper.time_constant()
