@@ -153,7 +153,12 @@ def read_manoeuvre(table: dict[str, Any], source: str = "") -> Manoeuvre:
         name = find_manoeuvre(kind)
     except InputError as error:
         raise error.within(key="manoeuvre", source=source) from None
-    return validate(MANOEUVRES[name], {**table, "kind": name}, source=source, key="manoeuvre")
+    manoeuvre = validate(MANOEUVRES[name], {**table, "kind": name}, source=source, key="manoeuvre")
+    start = getattr(manoeuvre, "start", 0.0)
+    if start >= manoeuvre.duration:
+        text = f"{start:g} s is not allowed; the run ends after {manoeuvre.duration:g} s"
+        raise InputError(text, key="manoeuvre.start", source=source)
+    return manoeuvre
 
 
 def run_case(case: Case, path: Path, progress: Report = lambda task, done: None) -> Comparison:

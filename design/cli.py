@@ -213,6 +213,9 @@ def _guarded(command: Callable[[], object]) -> None:
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)
+    except OSError as error:
+        typer.echo(f"{typer.style('error:', fg='red')} {error.strerror or error}", err=True)
+        sys.exit(2)
 
 
 @contextmanager

@@ -40,7 +40,10 @@ class Plant:
     def from_spec(cls, spec: mujoco.MjSpec, meaning: Meaning) -> Plant:
         """Compile a specification and write the meaning into it."""
         spec.add_text(name=META, data=meaning.to_json())
-        return cls(spec.compile(), meaning)
+        try:
+            return cls(spec.compile(), meaning)
+        except ValueError as error:
+            raise InputError(f"MuJoCo refuses the model: {' '.join(str(error).split())}", source=meaning.source) from None
 
     @classmethod
     def from_mjcf(cls, path: str | Path) -> Plant:

@@ -141,7 +141,7 @@ def unit_of(metadata: Any) -> str:
 
 Length = Annotated[float, Quantity("m")]
 PositiveLength = Annotated[float, Quantity("m", gt=0)]
-Mass = Annotated[float, Quantity("kg", gt=0)]
+Mass = Annotated[float, Quantity("kg", ge=1e-6)]
 Inertia = Annotated[float, Quantity("kg m²", gt=0)]
 Force = Annotated[float, Quantity("N")]
 NonNegativeForce = Annotated[float, Quantity("N", ge=0)]

@@ -99,6 +99,7 @@ def test_a_vehicle_file_beside_the_case_is_found(tmp_path):
         ('height = "40 mm"', 'hight = "40 mm"', ["mine.toml: manoeuvre.hight: ", "did you mean 'height'"]),
         ('height = "40 mm"', 'height = "40 kg"', ["mine.toml: manoeuvre.height: ", "'40 kg'", "m"]),
         ('speed = "50 km/h"', "speed = -3", ["mine.toml: manoeuvre.speed: ", "-3", "greater than 0"]),
+        ('duration = "1 s"', "duration = 0.1", ["mine.toml: manoeuvre.start: ", "0.2 s is not allowed", "ends after 0.1 s"]),
         ('duration = "1 s"', "duration = nan", ["mine.toml: manoeuvre.duration: ", "nan", "finite"]),
         ('vehicle = "chapter3"', 'vehicle = "chapter4"', ["mine.toml: configuration.0.vehicle: ", "chapter4", "chapter3"]),
         ('vehicle = "chapter3"', 'vehicle = "none.toml"', ["none.toml: no such file"]),

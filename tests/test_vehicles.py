@@ -162,7 +162,7 @@ MISTAKES = {
     "no unit": ('rate = "25 N/mm"', 'rate = "25"', "rear.spring.rate", ["'25'", "no unit", "N/m"]),
     "not a number": ('rate = "25 N/mm"', "rate = [1, 2]", "rear.spring.rate", ["[1, 2]", "N/m"]),
     "wrong sign": ('rate = "25 N/mm"', "rate = -25000.0", "rear.spring.rate", ["-25000.0", "greater than 0"]),
-    "zero mass": ("unsprung_mass = 40.0", "unsprung_mass = 0", "rear.unsprung_mass", ["0", "greater than 0"]),
+    "zero mass": ("unsprung_mass = 40.0", "unsprung_mass = 0", "rear.unsprung_mass", ["0", "at least"]),
     "NaN": ("rate = 350000.0", "rate = nan", "rear.damper.mount.rate", ["nan", "not a finite number"]),
     "infinite": ("rate = 350000.0", "rate = inf", "rear.damper.mount.rate", ["inf", "not a finite number"]),
     "stop on the wrong side": ('rebound = "-90 mm"', 'rebound = "90 mm"', "rear.spring.stops.rebound", ["0.09", "below 0"]),
