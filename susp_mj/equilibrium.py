@@ -50,14 +50,14 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
 
 
 def _newton(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray) -> np.ndarray:
-    """Root by Newton's method with central differences and halved steps, until rounding stops the progress.
+    """Root by Newton's method with finite differences and halved steps, until rounding stops the progress.
 
     Springs are monotone but have kinks, at the design position and at the stops, where library solvers that trust their
     model of the function stall; the static load of an axle lies exactly on one whenever the payload leaves it alone.
     """
     here = residual(position)
     for _ in range(100):
-        slope = np.column_stack([(residual(position + h) - residual(position - h)) / 2e-7 for h in 1e-7 * np.eye(len(position))])
+        slope = np.column_stack([(residual(position + h) - here) / 1e-7 for h in 1e-7 * np.eye(len(position))])
         if not np.isfinite(slope).all():
             return position
         step = np.linalg.lstsq(slope, -here, rcond=None)[0]
@@ -74,7 +74,7 @@ def _newton(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray) 
 def _rest_states(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Forces at the current position with every inner state at rest, i.e. equal to its element's deflection."""
     data.qvel[:] = 0.0
-    mujoco.mj_forward(model, data)
+    mujoco.mj_fwdPosition(model, data)  # lengths; the inputs in ctrl stay what they are at the first instant
     length = data.actuator_length + data.ctrl
     for actuator in np.flatnonzero(model.actuator_actadr >= 0):
         _, _, partner, weight, other, _ = model.actuator_user[actuator][:ACTUATOR_HEADER]

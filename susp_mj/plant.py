@@ -100,12 +100,13 @@ class Plant:
             columns: (rows, n) by source name; ``input`` and ``input_rate`` have one column per input.
         """
         inputs = {channel_name(place.station, place.quantity): i for i, place in enumerate(self.meaning.inputs)}
+        series = {source: np.ascontiguousarray(values.T) for source, values in columns.items()}
         results = []
         for output in self.meaning.outputs:
-            values = np.zeros(len(columns["qpos"]))
+            values = np.zeros(series["qpos"].shape[1])
             for source, name, factor in output.terms:
                 column = inputs[name] if source.startswith("input") else self.index(source, name)
-                values += factor * columns[source][:, column]
+                values += factor * series[source][column]
             results.append((output, values))
         return results
 

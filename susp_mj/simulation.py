@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Sequence
+import functools
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from importlib.metadata import version
 
@@ -187,9 +188,15 @@ def _as_run(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, records: np.nd
         "places": {place.station: [place.x, place.y] for place in meaning.inputs if place.quantity == "road_height"},
         "step": step,
         "integrator": "RK4",
-        "versions": {"susp_mj": version("susp_mj"), "mujoco": mujoco.__version__},
+        "versions": dict(_versions()),
     }
     return Run(time, channels, meta)
+
+
+@functools.cache
+def _versions() -> Mapping[str, str]:
+    """Versions of what computes; looked up once."""
+    return {"susp_mj": version("susp_mj"), "mujoco": mujoco.__version__}
 
 
 def _diverged(run: Run, step: float) -> str:
