@@ -15,7 +15,6 @@ from .units import PositiveTime
 if TYPE_CHECKING:
     from .meaning import Input
 
-Values = np.ndarray
 ValueAndRate = tuple[np.ndarray, np.ndarray]
 
 

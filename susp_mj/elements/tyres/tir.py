@@ -70,7 +70,8 @@ def load_tyre(path: str | Path) -> MagicFormulaTyre:
     for section, values in sections.items():
         if section in _SECTIONS:
             field = _SECTIONS[section]
-            known = MagicFormulaTyre.model_fields[field].annotation.model_fields  # type: ignore[union-attr]
+            coefficients: Any = MagicFormulaTyre.model_fields[field].annotation
+            known = coefficients.model_fields
             for key, text in values.items():
                 if key in known:
                     data[field][key] = _value(key, text, factors, section, source)
