@@ -140,7 +140,7 @@ def print_lists() -> None:
     cars = {name: ", ".join(characteristic_sets(name)) for name in available_vehicles()}
     first_lines = {name: _first_line(kind) + (f" ({german[name]})" if name in german else "") for name, kind in MANOEUVRES.items()}
     _print_pairs("Cars and their sets of characteristics", cars)
-    _print_pairs("Models", {name: topology.title for name, topology in MODELS.items()})
+    _print_pairs("Models", MODELS)
     _print_pairs("Manoeuvres (German name)", first_lines)
     _print_matrix()
     _print_pairs("Cases", {name: _case_title(name) for name in available_cases()})
@@ -151,7 +151,7 @@ def print_lists() -> None:
 def _print_matrix() -> None:
     """Which manoeuvre runs on which model: it drives inputs that the model has."""
     from manoeuvres import MANOEUVRES
-    from vehicles.mjcf import MODELS, build
+    from vehicles.mjcf import HANDLING, K_AND_C, MODELS, OSCILLATION, build
     from vehicles.vehicle import load_vehicle
 
     table = Table(title="Model x manoeuvre", box=SIMPLE_HEAD, title_justify="left", title_style="bold")
@@ -159,9 +159,9 @@ def _print_matrix() -> None:
     for manoeuvre in MANOEUVRES:
         table.add_column(manoeuvre, justify="center")
     car = load_vehicle("s_class")
-    for model, topology in MODELS.items():
-        plant = build(car, model, rig="roll" if "roll" in topology.freedoms else None)
-        offered = {place.quantity for place in plant.meaning.inputs}
+    for model in MODELS:
+        rigs = [None, K_AND_C] if model == HANDLING else ["roll" if "roll" in OSCILLATION[model].freedoms else None]
+        offered = {place.quantity for rig in rigs for place in build(car, model, rig=rig).meaning.inputs}
         table.add_row(model, *("x" if set(kind.needs) <= offered else "" for kind in MANOEUVRES.values()))
     _console().print(table)
 

@@ -31,14 +31,16 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
     data = mujoco.MjData(model)
     attach_input(data, block)
 
+    states = np.flatnonzero(model.actuator_actadr >= 0)
+
     def residual(position: np.ndarray) -> np.ndarray:
-        data.qpos[:] = position
-        _rest_states(model, data)
+        data.qpos[:], data.qvel[:] = position, 0.0
+        rest_states(model, data, states)
         return data.qfrc_smooth / weight
 
     mujoco.mj_forward(model, data)
     weight = np.maximum(np.abs(data.qfrc_bias), np.abs(data.qfrc_bias).max())
-    position = _newton(residual, data.qpos.copy())
+    position = solve(residual, data.qpos.copy())
     if not np.max(np.abs(residual(position))) < 1e-9:
         raise SimulationError(
             f"{plant.meaning.source}: load '{plant.meaning.load}' has no static equilibrium in model {plant.meaning.model}; "
@@ -49,7 +51,7 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
     return data
 
 
-def _newton(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray) -> np.ndarray:
+def solve(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray) -> np.ndarray:
     """Root by Newton's method with finite differences and halved steps, until rounding stops the progress.
 
     Springs are monotone but have kinks, at the design position and at the stops, where library solvers that trust their
@@ -71,12 +73,11 @@ def _newton(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray) 
     return position
 
 
-def _rest_states(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Forces at the current position with every inner state at rest, i.e. equal to its element's deflection."""
-    data.qvel[:] = 0.0
+def rest_states(model: mujoco.MjModel, data: mujoco.MjData, actuators: np.ndarray) -> None:
+    """Forces at the current position with the inner states of these actuators at rest, i.e. equal to their element's deflection."""
     mujoco.mj_fwdPosition(model, data)  # lengths; the inputs in ctrl stay what they are at the first instant
     length = data.actuator_length + data.ctrl
-    for actuator in np.flatnonzero(model.actuator_actadr >= 0):
+    for actuator in actuators:
         _, _, partner, weight, other, _ = model.actuator_user[actuator][:ACTUATOR_HEADER]
         deflection = length[actuator] if partner == 0 else weight * length[actuator] + other * length[actuator + int(partner)]
         data.act[model.actuator_actadr[actuator]] = deflection

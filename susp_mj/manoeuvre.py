@@ -13,7 +13,9 @@ from .errors import InputError
 from .units import PositiveTime
 
 if TYPE_CHECKING:
+    from .driver import Driver
     from .meaning import Input
+    from .roads import Road
 
 ValueAndRate = tuple[np.ndarray, np.ndarray]
 
@@ -46,6 +48,18 @@ class Manoeuvre(Description, ABC):
         Returns:
             (n,) values and (n,) rates per second in the input's unit, or None for an input that stays zero.
         """
+
+    def road(self) -> Road | None:
+        """Road for a car that drives freely, its front axle at x = 0 when the run begins; None is level."""
+        return None
+
+    def driver(self) -> Driver | None:
+        """Driver who steers, instead of an open-loop steering input."""
+        return None
+
+    def driving_speed(self) -> float:
+        """Speed [m/s] at which a car that drives freely begins: the manoeuvre's `speed`, or standing still."""
+        return float(getattr(self, "speed", 0.0))
 
     def record(self, time: np.ndarray) -> dict[str, np.ndarray]:
         """Signals of the manoeuvre itself to keep with the run, by quantity; by default none."""

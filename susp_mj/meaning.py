@@ -33,7 +33,8 @@ class Output:
     Attributes:
         quantity, station: as in `Channel`.
         terms: (source, name, factor); the source is ``qpos``, ``qvel``, ``qacc`` (name: a joint), ``actuator_force``
-            (an actuator), ``input`` or ``input_rate`` (the channel name of an input).
+            (an actuator), ``input`` or ``input_rate`` (the channel name of an input), ``signal`` (what the compiled car writes, a name in
+            `elements.car.SIGNALS`).
     """
 
     quantity: str
@@ -74,6 +75,7 @@ class Meaning:
         vehicle, title, source: name, title and file of the vehicle.
         load: name of the load case.
         inputs, outputs, travels, time_constants: see their classes.
+        driving: whether it is a car that drives freely, to be trimmed to straight running before a run.
     """
 
     model: str
@@ -86,6 +88,7 @@ class Meaning:
     travels: tuple[Travel, ...] = ()
     time_constants: tuple[TimeConstant, ...] = ()
     facts: Mapping[str, float] = field(default_factory=dict)
+    driving: bool = False
 
     def to_json(self) -> str:
         """The meaning as one line of JSON."""

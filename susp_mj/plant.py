@@ -15,11 +15,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from .elements.car import CAR_MARK, CAR_NUMERIC, HEAD, SIGNALS, WHEEL
 from .elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
 from .errors import InputError, SimulationError
 from .files import write_text
 from .meaning import Meaning, Output
-from .names import channel_name
+from .names import CORNERS, channel_name
 
 META = "susp_mj"
 
@@ -57,8 +58,10 @@ class Plant:
         try:
             spec = mujoco.MjSpec.from_file(str(path))
             _check_partners(spec, str(path))
-            spec.nuserdata = max(spec.nuserdata, USERDATA_HEADER + len(spec.actuators))  # actuators may have been added by hand
+            signals = len(SIGNALS) if any(numeric.name == CAR_NUMERIC for numeric in spec.numerics) else 0
+            spec.nuserdata = max(spec.nuserdata, USERDATA_HEADER + len(spec.actuators) + signals)  # actuators may have been added by hand
             model = spec.compile()
+            _check_car(spec, model, str(path))
         except ValueError as error:
             reason = " ".join(str(error).split())
             raise InputError(f"is not a model that susp-mj built: {reason}", source=str(path)) from None
@@ -78,8 +81,18 @@ class Plant:
         """Numbers of the force laws that the model uses."""
         return tuple(sorted({int(user[1]) for user in self.model.actuator_user if len(user) > 1 and user[0] == ACTUATOR_MARK}))
 
+    @cached_property
+    def contacts(self) -> tuple[int, ...]:
+        """Numbers of the contact laws that the model's tyres use; none in a model without."""
+        if self.model.nnumeric == 0 or self.model.numeric_data[0] != CAR_MARK:
+            return ()
+        wheels = self.model.numeric_data[len(HEAD) : len(HEAD) + 4 * len(WHEEL)].reshape(4, len(WHEEL))
+        return tuple(sorted({int(number) for number in wheels[:, WHEEL.index("tyre_law")]}))
+
     def index(self, source: str, name: str) -> int:
-        """Position of a joint or actuator in MuJoCo's array `source`."""
+        """Position of a joint or actuator in MuJoCo's array `source`, of a signal among the car's."""
+        if source == "signal":
+            return SIGNALS.index(name)
         if source == "actuator_force":
             return self.model.actuator(name).id
         joint = self.model.joint(name)
@@ -128,6 +141,25 @@ def _check_partners(spec: mujoco.MjSpec, source: str) -> None:
             )
 
 
+def _check_car(spec: mujoco.MjSpec, model: mujoco.MjModel, source: str) -> None:
+    """Refuse a file in which the car's numbers address joints or actuators that are no longer where they say."""
+    places = [i for i, numeric in enumerate(spec.numerics) if numeric.name == CAR_NUMERIC]
+    if not places:
+        return
+    block = np.array(spec.numerics[places[0]].data)
+    whole = len(block) > len(HEAD) + 4 * len(WHEEL) and block[0] == CAR_MARK and block[HEAD.index("length")] == len(block)
+    if places[0] != 0 or not whole:
+        raise InputError("must be the first custom numeric, and whole", key=CAR_NUMERIC, source=source)
+    wheels = block[len(HEAD) : len(HEAD) + 4 * len(WHEEL)].reshape(4, len(WHEEL))
+    for corner, wheel in zip(CORNERS, wheels, strict=True):
+        expected = {"tyre": ("actuator", f"{corner}_tyre"), "travel_freedom": ("joint", f"{corner}_travel")}
+        expected |= {"spin_freedom": ("joint", f"{corner}_spin")}
+        for number, (kind, name) in expected.items():
+            index = model.actuator(name).id if kind == "actuator" else int(model.joint(name).dofadr[0])
+            if wheel[WHEEL.index(number)] != index:
+                raise InputError(f"{kind} '{name}' is not where the car's numbers say; keep the order", key=CAR_NUMERIC, source=source)
+
+
 def write_mjcf(spec: mujoco.MjSpec, meaning: Meaning, path: str | Path) -> Path:
     """Write the model as one self-contained MJCF file with every digit, and check that it reads back the same.
 
@@ -137,7 +169,7 @@ def write_mjcf(spec: mujoco.MjSpec, meaning: Meaning, path: str | Path) -> Path:
     plant = Plant.from_spec(spec, meaning)
     text = _full_precision_xml(spec)
     again = mujoco.MjModel.from_xml_string(text)
-    for name in ("actuator_user", "body_mass", "body_inertia", "body_pos", "body_ipos", "tendon_range", "wrap_prm", "tendon_actfrcrange"):
+    for name in ("actuator_user", "body_mass", "body_inertia", "body_pos", "body_ipos", "tendon_range", "wrap_prm", "tendon_actfrcrange", "numeric_data"):
         if not np.array_equal(getattr(plant.model, name), getattr(again, name)):
             raise SimulationError(f"MuJoCo's writer lost digits of {name}; this MuJoCo is not supported")
     return write_text(path, text)

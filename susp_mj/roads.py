@@ -1,7 +1,9 @@
-"""Road height as a function of the distance travelled, with its slope; plain numpy, one function a shape."""
+"""Roads: height along the distance travelled, one function a shape, and as a surface with friction for a car that drives freely."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -94,3 +96,54 @@ class RandomTracks:
             waves = common * np.sqrt(share) + (left if y >= 0 else right) * np.sqrt(1 - share)
             self._splines[y] = CubicSpline(np.arange(self._count) * _SPACING, np.fft.irfft(waves, self._count))
         return self._splines[y]
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Rectangle of the road with a friction of its own, as a factor on what the tyre was measured with.
+
+    Attributes:
+        x_from, x_to, y_from, y_to: [m] in the inertial frame.
+        friction: factor, 1 for the dry road of the tyre's measurement.
+    """
+
+    x_from: float
+    x_to: float
+    y_from: float
+    y_to: float
+    friction: float
+
+
+def _flat() -> np.ndarray:
+    return np.zeros((2, 1))
+
+
+@dataclass(frozen=True)
+class Road:
+    """Surface over which a car drives freely: a height field on a regular grid, friction patches, a cross slope.
+
+    Between the grid points the height is a cubic (Catmull-Rom) over x and linear over y; outside it stays as at the edge,
+    level in x. Where patches overlap the last one counts.
+
+    Attributes:
+        x: (n,) evenly spaced places along the road [m], n >= 2.
+        y: (m,) evenly spaced places across it [m], + to the left; one value makes all tracks equal.
+        height: (n, m) [m].
+        patches: see `Patch`.
+        cross_slope: rise per metre to the left [1].
+        features: what a picture of the road shows, plain JSON values.
+    """
+
+    x: np.ndarray = field(default_factory=lambda: np.array([0.0, 1.0]))
+    y: np.ndarray = field(default_factory=lambda: np.array([0.0]))
+    height: np.ndarray = field(default_factory=_flat)
+    patches: tuple[Patch, ...] = ()
+    cross_slope: float = 0.0
+    features: tuple[Mapping[str, Any], ...] = ()
+
+    def block(self) -> np.ndarray:
+        """The road as the compiled car reads it; see `compiled.road`."""
+        spacing_y = self.y[1] - self.y[0] if len(self.y) > 1 else 1.0
+        head = [self.x[0], self.x[1] - self.x[0], len(self.x), self.y[0], spacing_y, len(self.y), self.cross_slope, len(self.patches)]
+        patches = [value for p in self.patches for value in (p.x_from, p.x_to, p.y_from, p.y_to, p.friction)]
+        return np.concatenate([np.array(head, float), np.array(patches, float), np.asarray(self.height, float).ravel()])

@@ -11,12 +11,15 @@ from importlib.metadata import version
 import mujoco
 import numpy as np
 
+from .chassis import free_motion
+from .elements.car import SIGNALS
 from .equilibrium import static_equilibrium
 from .errors import InputError, SimulationError
 from .manoeuvre import Manoeuvre
 from .names import channel_name
 from .plant import Plant
 from .run import Channel, Run, described
+from .trim import Blocks, set_trim_angle, trim_angle, trimmed
 
 STEP = 1e-3
 """Longest integration step chosen by itself, and spacing of its records [s]."""
@@ -71,7 +74,7 @@ def simulate(
         raise InputError(f"step {step} s and record_every {record_every} are not allowed; both must be positive", source="simulate")
     manoeuvre.check(meaning.inputs, meaning.model)
     _check_step(plant, step)
-    install(plant.laws)
+    install(plant.laws, plant.contacts)
 
     if manoeuvre.duration / step > MOST_STEPS:
         raise InputError(
@@ -88,25 +91,26 @@ def simulate(
         )
     steps = max(round(manoeuvre.duration / step / record_every), 1) * record_every
     samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2))
-    block = input_block(samples, step / 2, plant.entries())
-    at_rest = samples[:1].copy()
-    at_rest[..., 1] = 0.0
-    data = static_equilibrium(plant, input_block(at_rest, step / 2, plant.entries()))
+    blocks = _blocks(plant, manoeuvre, input_block(samples, step / 2, plant.entries()))
+    data = _at_start(plant, manoeuvre, samples, step)
 
     model = plant.model
     if model.opt.timestep != step:
         model = copy.copy(model)
         model.opt.timestep = step
     data.time = 0.0
-    attach_input(data, block)
+    angle = trim_angle(plant, data)
+    attach_input(data, blocks.inputs, blocks.road, blocks.driver)
+    set_trim_angle(plant, data, angle)
 
-    records = np.empty((steps // record_every + 1, sum(getattr(data, name).size for name in _FIELDS)))
+    fields = (*_FIELDS, "userdata") if plant.contacts else _FIELDS
+    records = np.empty((steps // record_every + 1, sum(getattr(data, name).size for name in fields)))
     rows, done, sound = 0, 0, True
     chunk = max(_CHUNK // record_every, 1) * record_every
     while sound and done < steps:
         count = min(chunk, steps - done)
         done += count
-        new, sound = advance(model, data, count, record_every, _FIELDS, records[rows:], final=done == steps)
+        new, sound = advance(model, data, count, record_every, fields, records[rows:], final=done == steps)
         rows += new
         if progress is not None:
             progress(done / steps)
@@ -115,6 +119,26 @@ def simulate(
     if not sound or any(warning.number for warning in data.warning):
         raise SimulationError(_diverged(run, step))
     return run
+
+
+def _blocks(plant: Plant, manoeuvre: Manoeuvre, inputs: np.ndarray) -> Blocks:
+    """What the compiled code reads during a run."""
+    if not plant.contacts:
+        return Blocks(inputs)
+    road, driver = manoeuvre.road(), manoeuvre.driver()
+    return Blocks(inputs, None if road is None else road.block(), None if driver is None or not plant.meaning.driving else driver.block())
+
+
+def _at_start(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray, step: float) -> mujoco.MjData:
+    """Data in the state from which the run begins: static equilibrium, or steady straight running."""
+    from .compiled import input_block
+
+    at_rest = samples[:1].copy()
+    at_rest[..., 1] = 0.0
+    block = input_block(at_rest, step / 2, plant.entries())
+    if not plant.contacts:
+        return static_equilibrium(plant, block)
+    return trimmed(plant, _blocks(plant, manoeuvre, block), manoeuvre.driving_speed() if plant.meaning.driving else 0.0)
 
 
 def simulate_many(
@@ -127,7 +151,7 @@ def simulate_many(
     from .compiled import install
 
     for plant, _ in jobs:
-        install(plant.laws)
+        install(plant.laws, plant.contacts)
     with ThreadPoolExecutor(workers) as pool:
         return list(pool.map(lambda job: simulate(*job, step=step, record_every=record_every), jobs))
 
@@ -168,13 +192,19 @@ def _check_step(plant: Plant, step: float) -> None:
 def _as_run(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, records: np.ndarray, inputs: np.ndarray, step: float) -> Run:
     meaning, model = plant.meaning, plant.model
     ends = np.cumsum([model.nq, model.nv, model.nv, model.nu])
-    columns = dict(zip(_FIELDS, np.split(records, ends[:-1], axis=1), strict=True))
+    columns = dict(zip(_FIELDS, np.split(records[:, : ends[-1]], ends[:-1], axis=1), strict=True))
     columns |= {"input": inputs[..., 0], "input_rate": inputs[..., 1]}
     channels: dict[str, Channel] = {}
+    if plant.contacts:
+        columns["signal"] = records[:, -len(SIGNALS) :]
+        motion = free_motion(columns["qpos"], columns["qvel"], columns["qacc"], meaning.facts)
+        channels |= {quantity: described(quantity, values) for quantity, values in motion.items()}
     for output, values in plant.outputs(columns):
         channels[channel_name(output.station, output.quantity)] = described(output.quantity, values, output.station)
     for i, place in enumerate(meaning.inputs):
-        channels[channel_name(place.station, place.quantity)] = described(place.quantity, inputs[:, i, 0].copy(), place.station)
+        name = channel_name(place.station, place.quantity)
+        if name not in channels:  # what acts in the end may be more than the input
+            channels[name] = described(place.quantity, inputs[:, i, 0].copy(), place.station)
     for quantity, values in manoeuvre.record(time).items():
         channels[quantity] = described(quantity, values)
     meta = {
@@ -189,8 +219,15 @@ def _as_run(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, records: np.nd
         "step": step,
         "integrator": "RK4",
         "versions": dict(_versions()),
+        **_features(plant, manoeuvre),
     }
     return Run(time, channels, meta)
+
+
+def _features(plant: Plant, manoeuvre: Manoeuvre) -> dict[str, dict[str, list[dict[str, object]]]]:
+    """What a picture of the road shows."""
+    road = manoeuvre.road() if plant.contacts else None
+    return {} if road is None else {"road": {"features": [dict(feature) for feature in road.features]}}
 
 
 @functools.cache

@@ -19,6 +19,7 @@ _UNITS: dict[str, tuple[float, tuple[int, int, int, int]]] = {
     "1": (1.0, (0, 0, 0, 0)),
     "%": (0.01, (0, 0, 0, 0)),
     "m": (1.0, (1, 0, 0, 0)),
+    "metre": (1.0, (1, 0, 0, 0)),  # of a length along the road, which is shown in metres, not millimetres
     "cm": (1e-2, (1, 0, 0, 0)),
     "mm": (1e-3, (1, 0, 0, 0)),
     "km": (1e3, (1, 0, 0, 0)),
@@ -31,6 +32,7 @@ _UNITS: dict[str, tuple[float, tuple[int, int, int, int]]] = {
     "min": (60.0, (0, 0, 1, 0)),
     "h": (3600.0, (0, 0, 1, 0)),
     "Hz": (1.0, (0, 0, -1, 0)),
+    "rpm": (math.tau / 60, (0, 0, -1, 1)),
     "rad": (1.0, (0, 0, 0, 1)),
     "deg": (math.pi / 180, (0, 0, 0, 1)),
     "°": (math.pi / 180, (0, 0, 0, 1)),
@@ -52,6 +54,7 @@ LARGEST = 1e15
 """Largest magnitude of any quantity, in SI units."""
 _SUPERSCRIPT = str.maketrans({"²": "^2", "³": "^3", "·": " ", "*": " ", "−": "-"})
 _NUMBER = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$")
+_PER_MINUTE = re.compile(r"^(1/min|min\^?-1|min⁻¹)$")
 _FACTOR = re.compile(r"^([A-Za-z°%1]*?)(?:\^?(-?\d))?$")
 
 
@@ -83,6 +86,11 @@ def to_si(value: Any, unit: str) -> float:
     >>> to_si(50, "m/s")
     50.0
 
+    Revolutions per minute may be written ``1/min`` where an angular speed is asked for:
+
+    >>> round(to_si("3000 1/min", "rad/s"), 3)
+    314.159
+
     Raises:
         ValueError: not a number, no unit on a text, an unknown unit, another dimension, NaN or infinite.
     """
@@ -96,8 +104,9 @@ def to_si(value: Any, unit: str) -> float:
             raise ValueError(f"'{value}' is not a number with a unit; write it like '1 {unit}'")
         if not match[2] and unit:
             raise ValueError(f"'{value}' has no unit; write '{value} {unit}' or the bare number {value}")
+        written = "rpm" if _PER_MINUTE.match(match[2]) and unit_factor(unit)[1] == unit_factor("rpm")[1] else match[2]
         try:
-            factor, dimension = unit_factor(match[2])
+            factor, dimension = unit_factor(written)
         except ValueError as error:
             raise ValueError(f"'{value}': {error}; expected a unit like {unit or 'none'}") from None
         if dimension != unit_factor(unit)[1]:
@@ -139,6 +148,9 @@ def unit_of(metadata: Any) -> str:
     return next((item.unit for item in metadata if isinstance(item, Quantity)), "")
 
 
+Angle = Annotated[float, Quantity("rad")]
+AngularSpeed = Annotated[float, Quantity("rad/s", gt=0)]
+Moment = Annotated[float, Quantity("N m")]
 Length = Annotated[float, Quantity("m")]
 PositiveLength = Annotated[float, Quantity("m", gt=0)]
 Mass = Annotated[float, Quantity("kg", ge=1e-6)]

@@ -27,7 +27,7 @@ from susp_mj import InputError, SuspMjError, simulate
 from susp_mj.names import channel_name
 from susp_mj.run import Run, described
 from vehicles import load_vehicle
-from vehicles.mjcf import MODELS, build
+from vehicles.mjcf import OSCILLATION, build
 
 SIZE, FPS = (320, 180), 10
 
@@ -340,7 +340,7 @@ def test_every_wheel_stands_on_its_own_track(kind):
             assert height - bottom == pytest.approx(squeezed, abs=2e-4)
 
 
-@pytest.mark.parametrize("model", [model for model, topology in MODELS.items() if topology.axles * topology.sides > 1])
+@pytest.mark.parametrize("model", [model for model, topology in OSCILLATION.items() if topology.axles * topology.sides > 1])
 def test_every_model_with_several_wheels_can_be_shown(model):
     run = simulate(build(load_vehicle("s_class", "configuration_4"), model), Bump(duration=0.6))
     assert kind_of([Clip(model, run)]) == "car"

@@ -15,7 +15,7 @@ from manoeuvres import Bump, RoadStep
 from susp_mj import compiled, simulate
 from susp_mj.compiled import layout
 from susp_mj.elements import LAWS, Law, LinearSpring, register
-from susp_mj.elements.law import ACTUATOR_MARK, helpers
+from susp_mj.elements.law import ACTUATOR_MARK, USERDATA_HEADER, helpers
 from susp_mj.equilibrium import static_equilibrium
 from susp_mj.errors import CallbackError
 from susp_mj.plant import Plant
@@ -287,7 +287,7 @@ def test_inputs_reach_the_stages(plant):
         data.time = time
         mujoco.mj_forward(plant.model, data)
         assert data.ctrl[tyre] == pytest.approx(value, abs=1e-15)
-        assert data.userdata[2 + tyre] == pytest.approx(rate, abs=1e-12)
+        assert data.userdata[USERDATA_HEADER + tyre] == pytest.approx(rate, abs=1e-12)
     compiled.attach_input(data, None)
     assert not data.userdata.any()
 

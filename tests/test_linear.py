@@ -10,7 +10,7 @@ from manoeuvres import VerticalSweep
 from susp_mj import InputError, simulate
 from susp_mj.linear import linearise
 from vehicles import load_vehicle
-from vehicles.mjcf import MODELS, build
+from vehicles.mjcf import OSCILLATION, build
 
 from .verification.test_random_road import LINEAR_CAR
 
@@ -65,14 +65,14 @@ def test_sweep_agrees_with_the_transfer_function(linear_car):
     assert np.median(error) < 0.005
 
 
-@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("model", OSCILLATION)
 def test_modes_of_the_saloon(model):
     """As many body modes as body freedoms, near the design frequencies; all decay."""
     car = load_vehicle("s_class", "configuration_4").without_friction()
     modes = linearise(build(car, model)).modes()
     assert all(0 < mode.damping <= 1 for mode in modes)
     body = [mode for mode in modes if mode.oscillates and mode.frequency < 4]
-    assert len(body) == len(MODELS[model].freedoms)
+    assert len(body) == len(OSCILLATION[model].freedoms)
     assert all(0.6 < mode.frequency < 2.2 for mode in body)
     for mode in modes:
         assert max(abs(amplitude) for amplitude in mode.shape.values()) == pytest.approx(1.0)

@@ -102,6 +102,90 @@ def test_loads_of_a_whole_car(name):
         assert rear * vehicle.wheelbase == pytest.approx(-case.cg[0] * case.sprung_mass, rel=1e-12)
 
 
+# ---- the handling car
+
+COMPLETE = [name for name, data in FILES.items() if "steering" in data]
+
+
+def test_several_cars_are_complete_for_handling():
+    assert {"s_class", "bmw_320i"} <= set(COMPLETE)
+
+
+@pytest.mark.parametrize(("name", "chosen"), [each for each in SETS if each[0] in COMPLETE])
+def test_a_car_with_a_steering_is_complete(name, chosen):
+    """In every set of characteristics; and its tables reach from stop to stop."""
+    vehicle = load_vehicle(name, chosen or None)
+    assert vehicle.handling_needs() == []
+    vehicle.check_handling()
+    for axle in (vehicle.front, vehicle.rear):
+        assert axle.kinematics.travel[0] <= axle.spring.stops.rebound
+        assert axle.kinematics.travel[-1] >= axle.spring.stops.compression
+
+
+def test_what_a_car_lacks_is_listed(vehicle_file):
+    with pytest.raises(InputError) as caught:
+        load_vehicle(vehicle_file).check_handling()
+    assert str(caught.value) == (
+        "car.toml: model 'handling' needs what this car does not give: wheelbase, wheel_radius, loads.ko.sprung_mass, "
+        "loads.heavy.sprung_mass, front, rear.track, rear.wheel_inertia, rear.kinematics, rear.compliance, rear.handling_tyre, "
+        "steering, powertrain, brakes, aerodynamics"
+    )
+    needs = load_vehicle("s_class", overrides={"brakes": None, "rear.wheel_inertia": None, "rear.compliance": {}}).handling_needs()
+    assert needs == ["rear.wheel_inertia", "brakes"]
+
+
+def test_a_tyre_file_lies_beside_the_vehicle_or_ships(vehicle_file):
+    """The one beside the vehicle comes first, wherever the program runs."""
+    vehicle_file.write_text(vehicle_file.read_text() + '[rear.handling_tyre]\nkind = "magic_formula"\nfile = "pac2002_245_40R18.tir"\n')
+    assert load_vehicle(vehicle_file).rear.handling_tyre.radius == 0.344
+    own = (FOLDER / "tyres" / "pac2002_245_40R18.tir").read_text().replace("UNLOADED_RADIUS = 0.344", "UNLOADED_RADIUS = 0.3")
+    (vehicle_file.parent / "pac2002_245_40R18.tir").write_text(own)
+    assert load_vehicle(vehicle_file).rear.handling_tyre.radius == 0.3
+    (vehicle_file.parent / "pac2002_245_40R18.tir").write_text(own.replace("PDX1 = 1.1739", "PDX1 = -1"))
+    with pytest.raises(InputError) as caught:
+        load_vehicle(vehicle_file)
+    assert caught.value.source == "pac2002_245_40R18.tir"
+    assert caught.value.key == "LONGITUDINAL_COEFFICIENTS.PDX1"
+
+
+def test_an_unknown_tyre_file_is_one_line():
+    with pytest.raises(InputError) as caught:
+        load_vehicle("s_class", overrides={"rear.handling_tyre.file": "pac2002_24540R18.tir"})
+    shipped = ", ".join(sorted(path.name for path in (FOLDER / "tyres").glob("*.tir")))
+    assert str(caught.value) == (
+        "s_class.toml: rear.handling_tyre.file: no file 'pac2002_24540R18.tir' beside the vehicle file; "
+        f"did you mean 'pac2002_245_40R18.tir'? choose {shipped}, or give the path of a .tir file"
+    )
+
+
+def test_the_bmw_is_that_of_commonroad():
+    """Figures of commonroad-vehicle-models 3.0.2, parameters_vehicle2.yaml, converted here a second time."""
+    car = load_vehicle("bmw_320i")
+    a, b, m_s, m_u = 1.1561957064, 1.4227170936, 965.7108098804363, 63.7921826056784
+    assert car.wheelbase == pytest.approx(a + b, rel=1e-4)
+    assert car.loads["ko"].sprung_mass + 2 * (car.front.unsprung_mass + car.rear.unsprung_mass) == pytest.approx(1093.2952, rel=1e-5)
+    assert car.cg_height("ko") == pytest.approx(0.61373, abs=1e-4)
+    wheels = m_u * (a**2 + b**2) + m_u * ((1.38684 / 2) ** 2 + (1.36398 / 2) ** 2)
+    np.testing.assert_allclose(car.loads["ko"].inertia, (207.26525, 1565.81788, 1791.59953 - wheels), rtol=1e-4)
+    for name, track, share, spring, damper, torsion, camber in (
+        ("front", 1.38684, b, 24453.138, 1786.244, 6914.8817, -0.3937008),
+        ("rear", 1.36398, a, 19635.505, 1649.083, 2643.6010, -0.9055118),
+    ):
+        axle = car.axle(name)
+        assert axle.track == track
+        assert float(axle.spring.force_at(0)) == pytest.approx(m_s * 9.81 * share / (a + b) / 2, rel=1e-4)
+        assert float(axle.spring.rate_at(0.03)) == pytest.approx(spring, rel=1e-4)
+        np.testing.assert_allclose(axle.damper.force_at([0.3, -0.3]), [0.3 * damper, -0.3 * damper], rtol=1e-4)
+        roll_moment_per_angle = axle.anti_roll_bar.rate * track**2 / 2
+        assert roll_moment_per_angle == pytest.approx(torsion, rel=1e-4)
+        gain = np.gradient(axle.kinematics.angles("camber")[:, 0], axle.kinematics.travel)
+        np.testing.assert_allclose(gain, camber, rtol=1e-4)
+        assert axle.tyre.rate == pytest.approx(158294.14, rel=1e-5)
+        assert axle.handling_tyre.vertical_stiffness == pytest.approx(158294.14, rel=1e-5)
+        assert axle.handling_tyre.radius == 0.344
+    assert car.brakes.torque == pytest.approx(1093.2952 * 0.344 * 11.5, rel=1e-3)
+
+
 # ---- overrides
 
 

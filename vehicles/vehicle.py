@@ -12,7 +12,23 @@ from pydantic_core import PydanticCustomError
 
 from susp_mj.components import MotionRatio
 from susp_mj.description import Description, validate, wrong
-from susp_mj.elements import GRAVITY, AntiRollBar, AnyDamper, AnySpring, AnyTyre, LinkageFriction, Spring, Tyre
+from susp_mj.elements import (
+    GRAVITY,
+    Aerodynamics,
+    AntiRollBar,
+    AnyDamper,
+    AnySpring,
+    AnyTyre,
+    Brakes,
+    Compliance,
+    Kinematics,
+    LinkageFriction,
+    Powertrain,
+    Spring,
+    Steering,
+    Tyre,
+)
+from susp_mj.elements.tyres.contact import AnyContactTyre
 from susp_mj.errors import InputError, choices
 from susp_mj.units import Inertia, Length, Mass, PositiveLength
 
@@ -20,6 +36,11 @@ AxleName = Literal["front", "rear"]
 FOLDER = Path(__file__).parent
 DESIGN_LOAD = "ko"
 """Name of the load case of the design position (Konstruktionslage), which every vehicle has."""
+TYRES = FOLDER / "tyres"
+"""Where the tyre property files that ship lie."""
+HANDLING_AXLE = ("track", "unsprung_mass", "wheel_inertia", "kinematics", "compliance", "handling_tyre")
+HANDLING_CAR = ("steering", "powertrain", "brakes", "aerodynamics")
+"""What model `handling` needs of each axle and of the car, beyond what the oscillation models need."""
 
 
 def _status(text: str) -> str:
@@ -44,6 +65,10 @@ class Axle(Description):
         anti_roll_bar: or None.
         spring, damper, tyre: see `susp_mj.elements`.
         friction: linkage friction, or None.
+        kinematics, compliance: how the wheel moves over travel, steering and forces; model `handling` only.
+        handling_tyre: tyre with slip; model `handling` only, the oscillation models take `tyre`. A file of it is looked for
+            beside the vehicle file, then among the tyres that ship.
+        wheel_inertia: of one wheel about its spin axis [kg m²], brake disc included; model `handling` only.
         spring_ratio, damper_ratio: component travel per wheel travel, for sheets of the components; the car needs neither.
     """
 
@@ -57,6 +82,10 @@ class Axle(Description):
     damper: AnyDamper
     friction: LinkageFriction | None = None
     tyre: AnyTyre | None = None
+    kinematics: Kinematics | None = None
+    compliance: Compliance | None = None
+    handling_tyre: AnyContactTyre | None = None
+    wheel_inertia: Inertia | None = None
     spring_ratio: MotionRatio | None = None
     damper_ratio: MotionRatio | None = None
 
@@ -97,6 +126,7 @@ class Vehicle(Description):
         wheel_radius: height of the wheel centres above the ground in the design position [m].
         driver: the driver's seat [m] from the reference point, as a load case's cg.
         front, rear: the axles; a quarter car may have one only.
+        steering, powertrain, brakes, aerodynamics: of the whole car, for model `handling` only.
         loads: load cases by name; ``ko`` is the design position.
         sources: dotted path -> 'measured: …', 'cited: …' or 'estimated: …', for every value of the file.
     """
@@ -110,6 +140,10 @@ class Vehicle(Description):
     driver: tuple[Length, Length, Length] | None = None
     front: Axle | None = None
     rear: Axle | None = None
+    steering: Steering | None = None
+    powertrain: Powertrain | None = None
+    brakes: Brakes | None = None
+    aerodynamics: Aerodynamics | None = None
     loads: dict[str, LoadCase] = Field(min_length=1)
     sources: dict[str, Provenance] = Field(default_factory=dict)
 
@@ -119,6 +153,20 @@ class Vehicle(Description):
             raise wrong(f"the load case '{DESIGN_LOAD}' (design position) is required", "loads")
         if self.front is None and self.rear is None:
             raise wrong("at least one axle is required", "front")
+        return self
+
+    @model_validator(mode="after")
+    def _kinematics_reach(self) -> Vehicle:
+        for name in ("front", "rear"):
+            axle: Axle | None = getattr(self, name)
+            if axle is None or axle.kinematics is None:
+                continue
+            key = f"{name}.kinematics"
+            axle.kinematics.check_covers(axle.spring.stops, key)
+            if name == "rear" and axle.kinematics.steer:
+                raise wrong("is not allowed; only the front wheels are steered", f"{key}.steer")
+            if name == "front" and self.steering is not None:
+                axle.kinematics.check_covers_steering(self.steering.largest_wheel_angle, key)
         return self
 
     def axle(self, name: str) -> Axle:
@@ -157,6 +205,28 @@ class Vehicle(Description):
         if name not in self.loads:
             raise InputError(f"no load case '{name}'; {choices(self.loads, name)}", key="load", source=self.source)
         return self.loads[name]
+
+    def handling_needs(self) -> list[str]:
+        """Dotted paths of what model `handling` still needs, in the order of the file; empty for a complete car.
+
+        A compliance may be an empty table (a rigid suspension), but must be there.
+        """
+        missing = [key for key in ("wheelbase", "wheel_radius") if getattr(self, key) is None]
+        missing += [f"loads.{name}.sprung_mass" for name, case in self.loads.items() if case.sprung_mass is None]
+        for name in ("front", "rear"):
+            axle: Axle | None = getattr(self, name)
+            missing += [name] if axle is None else [f"{name}.{key}" for key in HANDLING_AXLE if getattr(axle, key) is None]
+        return missing + [key for key in HANDLING_CAR if getattr(self, key) is None]
+
+    def check_handling(self) -> None:
+        """Refuse a car that model `handling` cannot drive.
+
+        Raises:
+            InputError: naming everything that is missing.
+        """
+        missing = self.handling_needs()
+        if missing:
+            raise InputError(f"model 'handling' needs what this car does not give: {', '.join(missing)}", source=self.source)
 
     def without_friction(self) -> Vehicle:
         """The same car without linkage and damper friction, for linearisation and closed forms."""
@@ -236,6 +306,7 @@ def load_vehicle(name: str | Path, characteristics: str | None = None, overrides
     for reserved in ("name", "source"):
         if reserved in data:
             raise InputError("unknown key; a car is named by its file", key=reserved, source=path.name)
+    _find_tyres(data, path)
     return validate(Vehicle, {**data, "name": path.stem, "source": path.name, "characteristics": chosen}, source=path.name)
 
 
@@ -308,16 +379,38 @@ def find_vehicle(name: str | Path) -> Path:
     text = str(name)
     if text.endswith(".toml"):
         path = Path(text)
-        try:
-            there = path.is_file()
-        except (OSError, ValueError):
-            there = False
-        if not there:
+        if not _is_file(path):
             raise InputError("no such file", source=text[:100])
         return path
     if text not in available_vehicles():
         raise InputError(f"no vehicle '{text}'; {choices(available_vehicles(), text)}, or give a .toml file", key="vehicle")
     return FOLDER / f"{text}.toml"
+
+
+def _find_tyres(data: dict[str, Any], path: Path) -> None:
+    """Put the path of each tyre property file in place of its name: beside the vehicle file, or one that ships."""
+    for axle in ("front", "rear"):
+        tables = data.get(axle)
+        tyre = tables.get("handling_tyre") if isinstance(tables, dict) else None
+        if not isinstance(tables, dict) or not isinstance(tyre, dict) or "file" not in tyre:
+            continue
+        name = str(tyre["file"])
+        found = next((each for each in (path.parent / name, TYRES / name) if _is_file(each)), None)
+        if found is None:
+            shipped = choices(sorted(each.name for each in TYRES.glob("*.tir")), name)
+            raise InputError(
+                f"no file '{name}' beside the vehicle file; {shipped}, or give the path of a .tir file",
+                key=f"{axle}.handling_tyre.file",
+                source=path.name,
+            )
+        tables["handling_tyre"] = {**tyre, "file": str(found)}
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> None:

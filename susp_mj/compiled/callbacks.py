@@ -2,6 +2,7 @@
 
 An actuator is ours if its first user parameter is `ACTUATOR_MARK`; the number of its law and its partner come next, then the
 law's own parameters. Deflection and speed are the transmission's length and velocity plus the input's share (`ctrl` and `userdata`).
+A model of a car that drives freely is recognised by its custom numeric; what is beyond its elements is in `car`.
 """
 
 from __future__ import annotations
@@ -10,52 +11,26 @@ import ctypes
 from typing import Any
 
 import mujoco
-from llvmlite import ir
-from numba import carray, cfunc, from_dtype, njit, types  # pyright: ignore[reportPrivateImportUsage]
+from numba import carray, cfunc, from_dtype, types  # pyright: ignore[reportPrivateImportUsage]
 
 from ..elements import LAWS
 from ..elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, LAW_TABLE_SIZE, USERDATA_HEADER
 from ..errors import CallbackError
-from .laws import compile_laws
+from .car import car_forces, car_state_rates, is_car
+from .laws import compile_contacts, compile_laws, law_call
 from .layout import LAYOUT
-from .memory import bits, doubles, intrinsic, ints
+from .memory import OPTIONS, bits, doubles, ints, plain
+from .sources import SOURCES
 
 MODEL = types.CPointer(from_dtype(LAYOUT.record("model")))
 DATA = types.CPointer(from_dtype(LAYOUT.record("data")))
 
 
-def _table_call(symbol: str) -> Any:
-    """Intrinsic ``call(number, x, v, y, parameters)`` through a table of addresses; 0 where the table is empty."""
-
-    @intrinsic
-    def call(context, number, x, v, y, parameters):
-        signature = types.float64(types.intp, types.float64, types.float64, types.float64, types.CPointer(types.float64))
-
-        def generate(target, builder, signature, arguments):
-            word, double = ir.IntType(64), ir.DoubleType()
-            table = builder.module.globals.get(symbol)
-            if table is None:
-                table = ir.GlobalVariable(builder.module, ir.ArrayType(word, LAW_TABLE_SIZE), symbol)
-                table.linkage = "external"
-            address = builder.load(builder.gep(table, [ir.Constant(word, 0), arguments[0]]))
-            result = builder.alloca(double)
-            builder.store(ir.Constant(double, 0.0), result)
-            with builder.if_then(builder.icmp_unsigned("!=", address, ir.Constant(word, 0))):
-                kind = ir.FunctionType(double, [double, double, double, double.as_pointer()])
-                law = builder.inttoptr(address, kind.as_pointer())
-                builder.store(builder.call(law, arguments[1:]), result)
-            return builder.load(result)
-
-        return signature, generate
-
-    return call
+_force_of = law_call("susp_mj_force_table")
+_state_rate_of = law_call("susp_mj_state_table")
 
 
-_force_of = _table_call("susp_mj_force_table")
-_state_rate_of = _table_call("susp_mj_state_table")
-
-
-@njit
+@plain
 def _length(model, data, actuator):
     """Length and rate of an actuator's form, the input's share in it; `userdata` may be too short in a file edited by hand."""
     v = doubles(data.actuator_velocity)[actuator]
@@ -64,7 +39,7 @@ def _length(model, data, actuator):
     return doubles(data.actuator_length)[actuator] + doubles(data.ctrl)[actuator], v
 
 
-@njit
+@plain
 def _deflection(model, data, actuator, own):
     """Deflection and speed that an element sees: its own form's and its partner's, weighted."""
     x, v = _length(model, data, actuator)
@@ -75,7 +50,7 @@ def _deflection(model, data, actuator, own):
     return x, v
 
 
-@cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
+@cfunc(types.float64(MODEL, DATA, types.intc), cache=True, **OPTIONS)
 def _force(model_pointer, data_pointer, actuator):
     model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
     stride = model.nuser_actuator
@@ -91,34 +66,22 @@ def _force(model_pointer, data_pointer, actuator):
     return -own[5] * _force_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
 
 
-@cfunc(types.float64(MODEL, DATA, types.intc), cache=True)
-def _state_rate(model_pointer, data_pointer, actuator):
-    model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
-    stride = model.nuser_actuator
-    state_address = ints(model.actuator_actadr)[actuator]
-    if stride < ACTUATOR_HEADER or state_address < 0:
-        return 0.0
-    user = model.actuator_user + types.uint64(8 * stride * actuator)
+@plain
+def _element_state_rate(model, data, actuator, state_address):
+    user = model.actuator_user + types.uint64(8 * model.nuser_actuator * actuator)
     own = doubles(user)
     if own[0] != ACTUATOR_MARK or not 0.0 < own[1] < LAW_TABLE_SIZE:
         return 0.0
-    state = doubles(data.act)[state_address]
     x, v = _deflection(model, data, actuator, own)
-    return _state_rate_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
+    return _state_rate_of(int(own[1]), x, v, doubles(data.act)[state_address], doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
 
 
-@cfunc(types.void(MODEL, DATA), cache=True)
-def _inputs(model_pointer, data_pointer):
-    """Write the input's value to `ctrl` and its rate to `userdata`, at the time of this stage.
+@plain
+def _inputs(model, data, userdata):
+    """Write the inputs' values to `ctrl` and their rates to `userdata`, at the time of this stage.
 
     The block (see `loop.input_block`) holds samples at half steps, which is where a Runge-Kutta stage asks.
     """
-    model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
-    if model.nuserdata < USERDATA_HEADER:
-        return
-    userdata = doubles(data.userdata)
-    if userdata[0] != ACTUATOR_MARK:
-        return
     block_address = bits(userdata[1])
     block = doubles(block_address)
     samples, spacing, inputs, entries = int(block[0]), block[1], int(block[2]), int(block[3])
@@ -148,25 +111,57 @@ def _inputs(model_pointer, data_pointer):
             userdata[USERDATA_HEADER + actuator] += factor * rate
 
 
+def _with_helpers(sources: int) -> tuple[Any, Any]:
+    """Callbacks that call code of other modules; `sources` is part of them, so that the disk cache never gives an outdated one."""
+
+    def state_rate(model_pointer, data_pointer, actuator):
+        model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
+        state_address = ints(model.actuator_actadr)[actuator]
+        if model.nuser_actuator < ACTUATOR_HEADER or state_address < 0 or sources == 0:
+            return 0.0
+        if is_car(model) and doubles(model.actuator_user + types.uint64(8 * model.nuser_actuator * actuator))[0] != ACTUATOR_MARK:
+            return car_state_rates(model, data, actuator)
+        return _element_state_rate(model, data, actuator, state_address)
+
+    def control(model_pointer, data_pointer):
+        model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
+        if model.nuserdata < USERDATA_HEADER or sources == 0:
+            return
+        userdata = doubles(data.userdata)
+        running = userdata[0] == ACTUATOR_MARK
+        if running and bits(userdata[1]) != types.uint64(0):
+            _inputs(model, data, userdata)
+        if is_car(model):
+            nothing = types.uint64(0)
+            car_forces(model, data, bits(userdata[2]) if running else nothing, bits(userdata[3]) if running else nothing)
+
+    rate = cfunc(types.float64(MODEL, DATA, types.intc), cache=True, **OPTIONS)(state_rate)
+    return rate, cfunc(types.void(MODEL, DATA), cache=True, **OPTIONS)(control)
+
+
+_state_rate, _control = _with_helpers(SOURCES)
+
 _SLOTS = {
     "act_bias": (mujoco.get_mjcb_act_bias, mujoco.set_mjcb_act_bias, _force),
     "act_dyn": (mujoco.get_mjcb_act_dyn, mujoco.set_mjcb_act_dyn, _state_rate),
-    "control": (mujoco.get_mjcb_control, mujoco.set_mjcb_control, _inputs),
+    "control": (mujoco.get_mjcb_control, mujoco.set_mjcb_control, _control),
 }
 
 
-def install(laws: Any = None) -> None:
+def install(laws: Any = None, contacts: Any = ()) -> None:
     """Put the compiled callbacks into MuJoCo; calling it again changes nothing.
 
     MuJoCo has one set of callbacks per process. Models that are not ours pass through them unchanged.
 
     Args:
         laws: numbers of the laws that will be used; None compiles every registered one.
+        contacts: numbers of the contact laws that will be used.
 
     Raises:
         CallbackError: another program has installed a callback of its own.
     """
     compile_laws(LAWS if laws is None else laws)
+    compile_contacts(contacts)
     for name, (get, put, compiled) in _SLOTS.items():
         present = get()
         if present is not None and not _is_ours(present, compiled):

@@ -16,9 +16,11 @@ import numpy as np
 
 from ..errors import CallbackError
 
-MODEL_POINTERS = ("actuator_user", "actuator_actadr")
-MODEL_SIZES = ("nuser_actuator", "nuserdata")
-DATA_POINTERS = ("ctrl", "act", "actuator_length", "actuator_velocity", "userdata")
+MODEL_POINTERS = ("actuator_user", "actuator_actadr", "numeric_data")
+MODEL_SIZES = ("nuser_actuator", "nuserdata", "nnumeric")
+DATA_POINTERS = (
+    "ctrl", "act", "act_dot", "actuator_length", "actuator_velocity", "userdata", "qvel", "qfrc_applied", "xpos", "xmat",
+)  # fmt: skip
 DATA_SCALARS = ("time",)
 
 
@@ -39,10 +41,12 @@ class Layout:
         )
 
 
-def _probe(actuators: int, user: int, userdata: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
+def _probe(actuators: int, user: int, userdata: int, numerics: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """A tiny model whose sizes are the given ones."""
     spec = mujoco.MjSpec()
     spec.nuser_actuator, spec.nuserdata = user, userdata
+    for i in range(numerics):
+        spec.add_numeric(name=f"n{i}", data=[float(i)] * 2)
     body = spec.worldbody.add_body(mass=1, inertia=[1, 1, 1], explicitinertial=True)
     for i in range(actuators):
         body.add_joint(name=f"j{i}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=np.eye(3)[i % 3])
@@ -88,7 +92,7 @@ def find_layout() -> Layout:
     Raises:
         CallbackError: a field is not found at exactly one place.
     """
-    probes = [_probe(2, 4441, 77), _probe(3, 5557, 91)]
+    probes = [_probe(2, 4441, 77, 37), _probe(3, 5557, 91, 53)]
     for number, (_, data) in enumerate(probes):
         data.time = 123.456 + number
     models, datas = zip(*probes, strict=True)
@@ -104,7 +108,7 @@ def check_layout(layout: Layout) -> None:
     Raises:
         CallbackError: naming the first field that differs.
     """
-    model, data = _probe(4, 9, 13)
+    model, data = _probe(4, 9, 13, 5)
     data.time = 7.25
     for struct, offsets in ((model, layout.model), (data, layout.data)):
         for name, offset in offsets.items():

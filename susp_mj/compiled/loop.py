@@ -13,7 +13,7 @@ import numpy as np
 from llvmlite import binding
 from numba import njit, types
 
-from ..elements.law import ACTUATOR_MARK
+from ..elements.law import ACTUATOR_MARK, USERDATA_HEADER
 from ..errors import CallbackError
 from .layout import LAYOUT
 from .memory import doubles
@@ -112,12 +112,14 @@ def _sources(data: mujoco.MjData, fields: Sequence[str]) -> tuple[np.ndarray, np
     return np.array(addresses, np.uint64), np.array(counts, np.int64)
 
 
-def attach_input(data: mujoco.MjData, block: np.ndarray | None) -> None:
-    """Let the control callback read `block`; the caller keeps it alive. None detaches."""
+def attach_input(
+    data: mujoco.MjData, block: np.ndarray | None, road: np.ndarray | None = None, driver: np.ndarray | None = None
+) -> None:
+    """Let the control callback read inputs, road and driver; the caller keeps the blocks alive. None detaches."""
     data.userdata[:] = 0.0
-    if block is not None:
-        data.userdata[0] = ACTUATOR_MARK
-        data.userdata[1:2].view(np.uint64)[0] = block.ctypes.data
+    data.userdata[0] = 0.0 if block is None and road is None and driver is None else ACTUATOR_MARK
+    addresses = data.userdata[1:USERDATA_HEADER].view(np.uint64)
+    addresses[:] = [0 if each is None else each.ctypes.data for each in (block, road, driver)]
 
 
 def input_block(samples: np.ndarray, spacing: float, entries: Sequence[tuple[int, int, float]]) -> np.ndarray:

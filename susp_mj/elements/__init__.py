@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from ..errors import CallbackError
+from .aero import Aerodynamics
 from .bars import AntiRollBar, Overturning, Rig
+from .brakes import Brakes
 from .dampers import DAMPERS, DIRECT_DAMPER, MOUNTED_DAMPER, AnyDamper, Damper, TableDamper, ZonedDamper
 from .element import Element
 from .friction import LinkageFriction
+from .kinematics import Compliance, Kinematics
 from .law import Law, helpers
+from .powertrain import Powertrain
 from .springs import (
     GRAVITY,
     SPRINGS,
@@ -18,7 +22,19 @@ from .springs import (
     Spring,
     TableSpring,
 )
+from .steering import Steering
 from .stops import Stops
+from .tyres.contact import (
+    CONTACT_LAWS,
+    CONTACT_TYRES,
+    AnyContactTyre,
+    ContactForces,
+    ContactLaw,
+    ContactTyre,
+    register_contact_tyre,
+)
+from .tyres.linear import LinearContactTyre
+from .tyres.magic_formula import MagicFormulaTyre
 from .tyres.vertical import TYRES, AnyTyre, Tyre, TyreSpring
 
 LAWS: dict[int, Law] = {
@@ -69,25 +85,39 @@ def register(element: type[Element]) -> None:
 
 
 __all__ = [
+    "CONTACT_LAWS",
+    "CONTACT_TYRES",
     "DAMPERS",
     "GRAVITY",
     "LAWS",
     "SPRINGS",
     "TYRES",
+    "Aerodynamics",
     "AntiRollBar",
+    "AnyContactTyre",
     "AnyDamper",
     "AnySpring",
     "AnyTyre",
+    "Brakes",
+    "Compliance",
     "ConstantFrequencySpring",
+    "ContactForces",
+    "ContactLaw",
+    "ContactTyre",
     "Damper",
     "Element",
+    "Kinematics",
     "Law",
+    "LinearContactTyre",
     "LinearSpring",
     "LinkageFriction",
+    "MagicFormulaTyre",
     "Overturning",
+    "Powertrain",
     "ProgressiveSpring",
     "Rig",
     "Spring",
+    "Steering",
     "Stops",
     "TableDamper",
     "TableSpring",
@@ -95,4 +125,5 @@ __all__ = [
     "TyreSpring",
     "ZonedDamper",
     "register",
+    "register_contact_tyre",
 ]

@@ -43,21 +43,27 @@ class Element(Description, ABC):
         return force(np.asarray(deflection, float), np.asarray(speed, float), np.asarray(state, float))
 
 
-ElementType = TypeVar("ElementType", bound=Element)
+Kind = TypeVar("Kind", bound=Description)
 
 
-def chosen_from(kinds: Mapping[str, type[ElementType]]) -> BeforeValidator:
+def chosen_kind(data: Mapping[Any, Any], kinds: Mapping[str, type[Kind]]) -> type[Kind]:
+    """The class that a table asks for by its `kind`.
+
+    Raises:
+        PydanticCustomError: for use in validators; no kind, or an unknown one.
+    """
+    kind = data.get("kind")
+    if kind is None:
+        raise PydanticCustomError("unknown_kind", "is required; {text}", {"text": choices(kinds), "key": "kind"})
+    if not isinstance(kind, str) or kind not in kinds:
+        raise PydanticCustomError("unknown_kind", "{text}", {"text": f"'{kind}' unknown; {choices(kinds, kind)}", "key": "kind"})
+    return kinds[kind]
+
+
+def chosen_from(kinds: Mapping[str, type[Kind]]) -> BeforeValidator:
     """Validator that reads a table by its `kind`; `kinds` is looked up at use, so registered kinds count too."""
 
     def choose(data: Any) -> Any:
-        if isinstance(data, Element) or not isinstance(data, dict):
-            return data
-        kind = data.get("kind")
-        if kind is None:
-            raise PydanticCustomError("unknown_kind", "is required; {text}", {"text": choices(kinds), "key": "kind"})
-        if not isinstance(kind, str) or kind not in kinds:
-            text = f"'{kind}' unknown; {choices(kinds, kind)}"
-            raise PydanticCustomError("unknown_kind", "{text}", {"text": text, "key": "kind"})
-        return kinds[kind].model_validate(data)
+        return chosen_kind(data, kinds).model_validate(data) if isinstance(data, dict) else data
 
     return BeforeValidator(choose)

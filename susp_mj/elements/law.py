@@ -6,6 +6,7 @@ import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from types import FunctionType
+from typing import Any
 
 from ..errors import CallbackError
 
@@ -21,8 +22,9 @@ ACTUATOR_HEADER = 6
 The law sees ``own weight * own deflection + partner's weight * partner's deflection``; the partner is so many actuators
 further on (0: none). The actuator's force is the factor times the law's. An anti-roll bar weighs 1 and -1.
 """
-USERDATA_HEADER = 2
-"""Doubles of mjData's `userdata` before the deflection speeds: the mark of a running input, the address of its block."""
+USERDATA_HEADER = 4
+"""Doubles of mjData's `userdata` before the deflection speeds: the mark of a running input and the addresses of its block, of the
+road's and of the driver's (0 where there is none)."""
 
 
 @dataclass(frozen=True)
@@ -53,14 +55,14 @@ class Law:
         return (self.force,) if self.state_rate is None else (self.force, self.state_rate)
 
 
-def helpers(function: ScalarLaw) -> dict[str, FunctionType]:
+def helpers(function: Callable[..., Any]) -> dict[str, FunctionType]:
     """Helper functions that a law calls, directly or through each other.
 
     Raises:
         CallbackError: a helper lives in another module; its changes would go unnoticed by the compiler's disk cache.
     """
     found: dict[str, FunctionType] = {}
-    waiting = [function]
+    waiting: list[Any] = [function]
     while waiting:
         current = waiting.pop()
         if not isinstance(current, FunctionType):

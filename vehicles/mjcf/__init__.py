@@ -1,7 +1,9 @@
-"""Vehicle to MuJoCo: `build` makes a plant of a chosen topology, `write` puts it into an MJCF file."""
+"""Vehicle to MuJoCo: `build` makes a plant of a chosen model, `write` puts it into an MJCF file."""
 
 from __future__ import annotations
 
-from .oscillation import MODELS, Topology, build, specification, write
+from .building import MODELS, build, specification, write
+from .handling import HANDLING, K_AND_C
+from .oscillation import OSCILLATION, Topology
 
-__all__ = ["MODELS", "Topology", "build", "specification", "write"]
+__all__ = ["HANDLING", "K_AND_C", "MODELS", "OSCILLATION", "Topology", "build", "specification", "write"]

@@ -85,7 +85,7 @@ def _elements(corner: Corner) -> dict[str, Element]:
     return elements
 
 
-def _suspension(builder: ModelBuilder, corner: Corner, deflection: Form, *, lever: float = 1.0) -> list[str]:
+def add_suspension(builder: ModelBuilder, corner: Corner, deflection: Form, *, lever: float = 1.0) -> list[str]:
     """A corner's elements along a deflection; returns the actuators' names.
 
     Args:
@@ -136,7 +136,7 @@ def _travel_outputs(builder: ModelBuilder, corner: Corner, deflection: Form) -> 
 def _massless_wheel(builder: ModelBuilder, position: dict[str, Form], corner: Corner) -> None:
     """A massless wheel that follows the road; the road cannot pull, so the corner's total force is at least 0."""
     deflection = corner.road - height_at(position, corner.x, corner.y)
-    actuators = _suspension(builder, corner, deflection)
+    actuators = add_suspension(builder, corner, deflection)
     builder.push_only(deflection)
     builder.output("wheel_load", corner.station, *(("actuator_force", name, -1.0) for name in actuators))
 
@@ -148,7 +148,7 @@ def _sprung_wheel(builder: ModelBuilder, body: Any, position: dict[str, Form], c
     travel = builder.joint(wheel, corner.name("travel"), "slide", [0, 0, 1])
     _draw_wheel(builder, wheel, [0, 0])
     height = position["heave"] + travel
-    _suspension(builder, corner, height - height_at(position, corner.x, corner.y))
+    add_suspension(builder, corner, height - height_at(position, corner.x, corner.y))
     _tyre(builder, corner, height)
 
 
@@ -200,7 +200,7 @@ def _sprung_rigid_axle(builder: ModelBuilder, body: Any, position: dict[str, For
         arm = corner.y - offset
         middle = position["heave"] + heave
         seat = height_at(position, corner.x, offset + lever * arm)
-        _suspension(builder, corner, middle + roll * (lever * arm) - seat, lever=lever)
+        add_suspension(builder, corner, middle + roll * (lever * arm) - seat, lever=lever)
         _tyre(builder, corner, middle + roll * arm)
 
 

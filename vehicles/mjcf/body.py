@@ -26,18 +26,20 @@ class Surface:
     Attributes:
         vertices: (n, 3) [m].
         faces: (m, 3) vertex numbers, anticlockwise seen from outside.
+        normals: (n, 3) unit vectors, or None to have them made from the faces.
     """
 
     vertices: np.ndarray
     faces: np.ndarray
+    normals: np.ndarray | None = None
 
 
 Profile = Sequence[tuple[float, float]]
 """Closed outline of a body of revolution: (radius, distance along the axis) [m]."""
 
 
-def tyre(radius: float) -> Surface:
-    """Tyre of an unloaded `radius` [m] with rounded shoulders and three grooves."""
+def tyre(radius: float, sections: int = _SECTIONS) -> Surface:
+    """Tyre of an unloaded `radius` [m] with rounded shoulders and three grooves, of so many `sections` around."""
     half = WHEEL_WIDTH / 2
     bead = RIM_RADIUS - 0.006
     side = bead + 0.55 * (radius - bead)
@@ -46,7 +48,7 @@ def tyre(radius: float) -> Surface:
     tread = [(radius - depth, place + edge) for place in (0.045, 0.0, -0.045) for edge, depth in _groove()]
     left = [*outer, *shoulder]
     right = [(r, -w) for r, w in reversed(left)]
-    return surface_of(_revolved([*left, *tread, *right]))
+    return surface_of(_revolved([*left, *tread, *right], sections=sections))
 
 
 def sidewall_marks(radius: float, count: int = 3) -> Surface:
@@ -70,7 +72,7 @@ def sidewall_marks(radius: float, count: int = 3) -> Surface:
     return joined(parts)
 
 
-def rim(spokes: int = 5) -> Surface:
+def rim(spokes: int = 5, sections: int = _SECTIONS) -> Surface:
     """Light-alloy rim: barrel with lips, split spokes and hub."""
     import trimesh
 
@@ -86,7 +88,7 @@ def rim(spokes: int = 5) -> Surface:
     ]
     inside = [(r - wall, w) for r, w in reversed(barrel)]
     parts = [
-        _revolved([*barrel, *inside]),
+        _revolved([*barrel, *inside], sections=sections),
         _revolved([(0.0, -0.075), (0.0, 0.0), (0.062, 0.0), (0.068, -0.06), (0.06, -0.072), (0.03, -0.075)]),
     ]
     for k in range(spokes):
@@ -109,10 +111,10 @@ def wheel_bolts(count: int = 5) -> Surface:
     return joined(parts)
 
 
-def brake_disc() -> Surface:
+def brake_disc(sections: int = _SECTIONS) -> Surface:
     """Brake disc with its bell, behind the spokes."""
     outer, inner = 0.168, 0.085
-    return surface_of(_revolved([(inner, 0.005), (outer, 0.005), (outer, 0.030), (inner, 0.030)]))
+    return surface_of(_revolved([(inner, 0.005), (outer, 0.005), (outer, 0.030), (inner, 0.030)], sections=sections))
 
 
 def coil(length: float, radius: float, wire: float, turns: float = 6.0) -> Surface:

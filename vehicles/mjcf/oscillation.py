@@ -8,14 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 import mujoco
 
-from susp_mj.errors import InputError, choices
+from susp_mj.errors import InputError
 from susp_mj.meaning import Meaning
-from susp_mj.plant import Plant, write_mjcf
 
 from ..vehicle import DESIGN_LOAD, Vehicle
 from .axles import BODY_HEIGHT, Corner, add_axle, note_stiffness
@@ -46,7 +44,7 @@ class Topology:
     rigid_axle: bool = False
 
 
-MODELS: dict[str, Topology] = {
+OSCILLATION: dict[str, Topology] = {
     "quarter_1dof": Topology("OM1: body heave; the massless wheel follows the road", ("heave",), 1, 1, sprung_wheels=False),
     "axle_2dof": Topology(
         "OM2: body heave and roll on a massless rigid axle", ("heave", "roll"), 1, 2, sprung_wheels=False, rigid_axle=True
@@ -61,33 +59,11 @@ MODELS: dict[str, Topology] = {
 }
 
 
-def build(vehicle: Vehicle, model: str, load: str = DESIGN_LOAD, axle: str | None = None, rig: str | None = None) -> Plant:
-    """Build an oscillation model of a car.
-
-    Args:
-        model: a key of `MODELS`.
-        load: load case of the vehicle.
-        axle: ``front`` or ``rear`` for models of one axle; None takes the rear, or the only one there is.
-        rig: ``roll`` puts the car on a rig that prescribes its roll angle.
-
-    Raises:
-        InputError: unknown model, load case or axle, or a value that the model needs is missing.
-    """
-    return Plant.from_spec(*specification(vehicle, model, load, axle, rig))
-
-
-def write(vehicle: Vehicle, model: str, path: str | Path, load: str = DESIGN_LOAD, axle: str | None = None) -> Path:
-    """Write the MJCF file of the model that `build` makes, complete and with every digit."""
-    return write_mjcf(*specification(vehicle, model, load, axle), path)
-
-
-def specification(
+def oscillation_specification(
     vehicle: Vehicle, model: str, load: str = DESIGN_LOAD, axle: str | None = None, rig: str | None = None
 ) -> tuple[mujoco.MjSpec, Meaning]:
-    """The MuJoCo specification of a model and the meaning of its numbers; arguments as for `build`."""
-    if model not in MODELS:
-        raise InputError(f"no model '{model}'; {choices(MODELS, model)}", key="model")
-    topology = MODELS[model]
+    """The MuJoCo specification of an oscillation model and the meaning of its numbers; arguments as for `build`."""
+    topology = OSCILLATION[model]
     builder = ModelBuilder(f"{vehicle.name}_{model}", vehicle.source)
     only = axle or ("rear" if vehicle.rear is not None else "front")
     axles = ["front", "rear"] if topology.axles == 2 else [only]

@@ -7,12 +7,15 @@ fixed tendon; the road's share reaches it as an input. Parts are named after the
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 import mujoco
+import numpy as np
 
 from susp_mj.elements import GRAVITY, Damper, Element
+from susp_mj.elements.car import CAR_NUMERIC, SIGNALS
 from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
 from susp_mj.meaning import Input, Meaning, Output, TimeConstant, Travel
 from susp_mj.names import channel_name
@@ -99,6 +102,7 @@ class ModelBuilder:
         self._actuators: list[Any] = []
         self._targets: dict[tuple[tuple[str, float], ...], str] = {}
         self._entries: dict[tuple[str, str], list[tuple[str, float]]] = {}
+        self._car: Callable[[mujoco.MjModel], np.ndarray] | None = None
 
     def joint(self, body: Any, name: str, kind: str, axis: list[float]) -> Form:
         """Give a body a freedom, ``slide`` or ``hinge``; returns it as a form."""
@@ -138,9 +142,21 @@ class ModelBuilder:
         actuator.gainprm[0] = 1.0
         self.drive(quantity, name, factor)
 
-    def drive(self, quantity: str, actuator: str, factor: float) -> None:
-        """Add an input's share to an actuator's deflection, or to a motor's force."""
-        self._entries.setdefault((quantity, ""), []).append((actuator, factor))
+    def drive(self, quantity: str, actuator: str, factor: float, station: str = "") -> None:
+        """Add an input's share to an actuator's deflection, to a motor's force, or to a control of the car."""
+        self._entries.setdefault((quantity, station), []).append((actuator, factor))
+
+    def control(self, name: str, joint: str, states: int = 0) -> None:
+        """An actuator without force of its own: its `ctrl` is an input of the car, its `act` are inner states of the car."""
+        actuator = self.spec.add_actuator(name=name, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        actuator.gainprm[0] = 0.0
+        if states:
+            actuator.dyntype, actuator.actdim = mujoco.mjtDyn.mjDYN_USER, states
+        self._actuators.append((name, actuator, None))
+
+    def car(self, block: Callable[[mujoco.MjModel], np.ndarray]) -> None:
+        """This is a car that drives freely; `block` gives its numbers once the model is compiled."""
+        self._car = block
 
     def motor_on(self, name: str, other: str, quantity: str, factor: float) -> None:
         """A motor along the same form as another actuator."""
@@ -214,6 +230,9 @@ class ModelBuilder:
                 longest = max(longest, len(acting.parameters))
         self.spec.nuser_actuator = ACTUATOR_HEADER + longest
         self.spec.nuserdata = USERDATA_HEADER + len(order)
+        if self._car is not None:
+            self.spec.nuserdata += len(SIGNALS)
+            self.spec.add_numeric(name=CAR_NUMERIC, data=self._car(self.spec.compile()))
         inputs = [
             Input(quantity, station, *self.places.get(station, (0.0, 0.0)), tuple(entries))
             for (quantity, station), entries in self._entries.items()

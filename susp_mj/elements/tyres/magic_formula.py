@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import model_validator
 
 from ...description import Description, wrong
-from ...units import Damping, Dimensionless, Force, PositiveForce, PositiveLength, PositiveSpeed, Quantity, Stiffness
-from . import magic_formula_law as law
+from ...units import Dimensionless, Force, PositiveForce, PositiveSpeed, Quantity
+from . import magic_formula_law as formula
+from .contact_tyre import ContactLaw, ContactTyre, Side
 from .magic_formula_coefficients import Aligning, Lateral, Longitudinal, Overturning, Rolling, Scaling
+from .slip import SMALLEST_RELAXATION
 
 Angle = Annotated[float, Quantity("rad")]
 # scale factors that multiply a coefficient; friction and stiffness factors reach the moments through the forces too
@@ -59,10 +61,8 @@ class Model(Description):
 
 
 class Vertical(Description):
-    """Section [VERTICAL]: stiffness [N/m] and damping [N s/m], coefficients of the rolling radius, nominal load [N]."""
+    """Section [VERTICAL]: coefficients of the rolling radius, nominal load [N]; its stiffness and damping are the tyre's own."""
 
-    VERTICAL_STIFFNESS: Stiffness
-    VERTICAL_DAMPING: Damping | None = None
     BREFF: Dimensionless
     DREFF: Dimensionless
     FREFF: Dimensionless
@@ -82,23 +82,52 @@ class Ranges(Description):
     FZMAX: PositiveForce
 
 
-class MagicFormulaTyre(Description):
+class MagicFormula(ContactTyre):
+    """What the versions of the Magic Formula have in common.
+
+    Attributes:
+        side: side of the car that this tyre is mounted on; on the other side than TYRESIDE it works mirrored.
+        model: section of the file.
+    """
+
+    side: Side | None = None
+    model: Model
+
+    @model_validator(mode="after")
+    def _combined_slip_known(self) -> Self:
+        if self.model.USE_MODE == 4:
+            for section, names in (("longitudinal", ("RBX1", "RBX2", "RCX1")), ("lateral", ("RBY1", "RBY2", "RCY1"))):
+                for name in names:
+                    if getattr(getattr(self, section), name) is None:
+                        raise wrong("is required for combined slip (USE_MODE 4); USE_MODE 3 does without", f"{section}.{name}")
+        return self
+
+    def mounted(self, side: Side) -> Self:
+        """The same tyre on a side of the car: ``F_y, M_x, M_z`` of (-alpha, -camber) change sign between the sides."""
+        return self.model_copy(update={"side": side})
+
+    def uncombined(self) -> Self:
+        """The same tyre with each force a function of its own slip alone (USE_MODE 3)."""
+        return self.model_copy(update={"model": self.model.model_copy(update={"USE_MODE": 3})})
+
+
+class MagicFormulaTyre(MagicFormula):
     """Magic Formula tyre, MF 5.2 / PAC2002: forces and moments of the contact in steady slip, relaxation lengths.
 
     The laws and their axes stand in `magic_formula_law`; `parameters` is what they take. Coefficients are those of the
     formula in radians and SI units, scale factors not yet applied.
 
     Attributes:
-        radius: R_0 [m], unloaded.
+        radius, vertical_stiffness, vertical_damping: as for every `ContactTyre`.
         side: side of the car that this tyre is mounted on; on the other side than TYRESIDE it works mirrored.
         model, vertical, ranges, scaling, longitudinal, lateral, aligning, overturning, rolling: sections of the file.
 
     Sources: [msc2008], [pacejka2012] section 4.3.2.
     """
 
-    radius: PositiveLength
-    side: Literal["LEFT", "RIGHT"] | None = None
-    model: Model
+    law: ClassVar[ContactLaw] = ContactLaw("magic_formula_52", formula.magic_formula_contact)
+
+    kind: Literal["magic_formula"] = "magic_formula"
     vertical: Vertical
     ranges: Ranges
     scaling: Scaling = Scaling()
@@ -107,23 +136,6 @@ class MagicFormulaTyre(Description):
     aligning: Aligning
     overturning: Overturning = Overturning()
     rolling: Rolling = Rolling()
-
-    @model_validator(mode="after")
-    def _combined_slip_known(self) -> MagicFormulaTyre:
-        if self.model.USE_MODE == 4:
-            for section, names in (("longitudinal", ("RBX1", "RBX2", "RCX1")), ("lateral", ("RBY1", "RBY2", "RCY1"))):
-                for name in names:
-                    if getattr(getattr(self, section), name) is None:
-                        raise wrong("is required for combined slip (USE_MODE 4); USE_MODE 3 does without", f"{section}.{name}")
-        return self
-
-    def mounted(self, side: Literal["LEFT", "RIGHT"]) -> MagicFormulaTyre:
-        """The same tyre on a side of the car: ``F_y, M_x, M_z`` of (-alpha, -camber) change sign between the sides."""
-        return self.model_copy(update={"side": side})
-
-    def uncombined(self) -> MagicFormulaTyre:
-        """The same tyre with each force a function of its own slip alone (USE_MODE 3)."""
-        return self.model_copy(update={"model": self.model.model_copy(update={"USE_MODE": 3})})
 
     def parameters(self) -> tuple[float, ...]:
         """Numbers for the laws in the order of `magic_formula_law.PARAMETERS`, scale factors multiplied in."""
@@ -146,19 +158,33 @@ class MagicFormulaTyre(Description):
             "LGAX": scale["LGAX"],
             "LGAY": scale["LGAY"],
             "LGAZ": scale["LGAZ"],
+            "DEFLECTION": nominal * scale["LFZO"] / self.vertical_stiffness,
+            "BREFF": self.vertical.BREFF,
+            "DREFF": self.vertical.DREFF,
+            "FREFF": self.vertical.FREFF,
+            "SIGMA_LEAST": SMALLEST_RELAXATION,
         }
-        return tuple(float(values[name]) for name in law.PARAMETERS)
+        values |= {
+            "PER_FZ0": 1.0 / values["FZ0"],
+            "PER_FZN": 1.0 / nominal,
+            "PER_VREF": 1.0 / self.model.LONGVL,
+            "PER_KY_LOAD": 1.0 / (values["PKY2"] * values["FZ0"]),
+            "PER_SY_LOAD": 1.0 / (values["PTY2"] * values["FZ0"]),
+            "KY_MOST": values["PKY1"] * values["FZ0"],
+            "SY_MOST": values["PTY1"] * self.radius,
+        }
+        return tuple(float(values[name]) for name in formula.PARAMETERS)
 
     def vertical_load(self, deflection: float, speed: float = 0.0) -> float:
         """``F_z = max(0, C_z rho + D_z rho')`` [N] of the deflection [m] and its rate [m/s], zero where contact is lost."""
         if deflection <= 0.0:
             return 0.0
-        return max(0.0, self.vertical.VERTICAL_STIFFNESS * deflection + (self.vertical.VERTICAL_DAMPING or 0.0) * speed)
+        return max(0.0, self.vertical_stiffness * deflection + self.vertical_damping * speed)
 
     def rolling_radius(self, load: float) -> float:
         """``R_e = R_0 - rho_0 (DREFF atan(BREFF rho/rho_0) + FREFF rho/rho_0)`` [m], ``rho_0 = F_z0/C_z``."""
         nominal = self.vertical.FNOMIN * self.scaling.LFZO
-        deflection, v = nominal / self.vertical.VERTICAL_STIFFNESS, self.vertical
+        deflection, v = nominal / self.vertical_stiffness, self.vertical
         share = max(0.0, load) / nominal
         return self.radius - deflection * (v.DREFF * math.atan(v.BREFF * share) + v.FREFF * share)
 

@@ -1,9 +1,12 @@
-"""Magic Formula 5.2 (PAC2002): the plain scalar functions, in the tyre's contact axes.
+"""Magic Formula 5.2 (PAC2002): one plain scalar function a quantity, and `magic_formula_contact` that gives all at once.
 
 Axes are ISO-W: x forward in the wheel plane, y to the left, z up out of the road. With V the speed of the contact point
 and V_s = V - Omega R_e its sliding speed, ``kappa = -V_sx/|V_x|`` and ``tan alpha = V_sy/|V_x|``: a driven wheel has
 kappa > 0 and F_x > 0, a tyre that drifts to the left has alpha > 0 and F_y < 0. Camber gamma is positive where the wheel
 leans to the right (top of the wheel towards -y).
+
+The functions of one quantity are there to be read and checked: they follow the source term by term. The car calls
+`magic_formula_contact`, which computes the same numbers with every shared term evaluated once, and adds the road's friction.
 
 Every function takes ``kappa [1], alpha [rad], camber [rad], load F_z [N]`` and the parameters `p` in the order of
 `PARAMETERS`: coefficients with their scaling factors already multiplied in. Slips and camber beyond the valid ranges of
@@ -16,6 +19,7 @@ inflation pressure.
 from __future__ import annotations
 
 import math
+from collections.abc import MutableSequence
 
 from ..law import Parameters
 
@@ -30,8 +34,14 @@ PARAMETERS = (
     "QBZ1", "QBZ2", "QBZ3", "QBZ4", "QBZ5", "QBZ9", "QBZ10", "QCZ1", "QDZ1", "QDZ2", "QDZ3", "QDZ4", "QDZ6", "QDZ7", "QDZ8",
     "QDZ9", "QEZ1", "QEZ2", "QEZ3", "QEZ4", "QEZ5", "QHZ1", "QHZ2", "QHZ3", "QHZ4", "SSZ1", "SSZ2", "SSZ3", "SSZ4",
     "QSX1", "QSX2", "QSX3", "QSY1", "QSY2", "QSY3", "QSY4", "VREF", "LGAX", "LGAY", "LGAZ",
+    "DEFLECTION", "BREFF", "DREFF", "FREFF", "SIGMA_LEAST",
+    "PER_FZ0", "PER_FZN", "PER_VREF", "PER_KY_LOAD", "PER_SY_LOAD", "KY_MOST", "SY_MOST",
 )
-"""Names of the parameters, in order; FZ0 is the nominal load times LFZO, FZN the nominal load itself."""
+"""Names of the parameters, in order; FZ0 is the nominal load times LFZO, FZN the nominal load itself.
+
+The last ones are combinations: ``DEFLECTION = FZ0/C_z``, ``PER_X = 1/X``, and of the cornering stiffness and the lateral
+relaxation length the load (``PKY2 FZ0``, ``PTY2 FZ0``) and the value (``PKY1 FZ0``, ``PTY1 R0``) of their largest.
+"""
 (
     SIDE, COMBINED, R0, FZ0, FZN, FZMAX, KPUMIN, KPUMAX, ALPMIN, ALPMAX, CAMMIN, CAMMAX,
     PCX1, PDX1, PDX2, PDX3, PEX1, PEX2, PEX3, PEX4, PKX1, PKX2, PKX3, PHX1, PHX2, PVX1, PVX2,
@@ -42,10 +52,14 @@ PARAMETERS = (
     QBZ1, QBZ2, QBZ3, QBZ4, QBZ5, QBZ9, QBZ10, QCZ1, QDZ1, QDZ2, QDZ3, QDZ4, QDZ6, QDZ7, QDZ8,
     QDZ9, QEZ1, QEZ2, QEZ3, QEZ4, QEZ5, QHZ1, QHZ2, QHZ3, QHZ4, SSZ1, SSZ2, SSZ3, SSZ4,
     QSX1, QSX2, QSX3, QSY1, QSY2, QSY3, QSY4, VREF, LGAX, LGAY, LGAZ,
+    DEFLECTION, BREFF, DREFF, FREFF, SIGMA_LEAST,
+    PER_FZ0, PER_FZN, PER_VREF, PER_KY_LOAD, PER_SY_LOAD, KY_MOST, SY_MOST,
 ) = range(len(PARAMETERS))
 # fmt: on
 SMALLEST_LOAD = 1e-9
 """Load [N] below which there is no aligning moment: the stiffnesses, whose ratio it needs, underflow to zero."""
+SMALLEST_FRICTION = 1e-6
+"""Friction of the road that stands for none: the shape of the curves, which is divided by it, stays finite."""
 
 
 def within(value: float, low: float, high: float) -> float:
@@ -100,7 +114,7 @@ def lateral_shifts(gamma: float, load: float, p: Parameters) -> tuple[float, flo
 def pure_longitudinal_force(kappa: float, camber: float, load: float, p: Parameters) -> float:
     """``F_x0 = D_x sin(C_x atan(B_x k - E_x (B_x k - atan(B_x k)))) + S_Vx``, ``k = kappa + S_Hx`` [N]."""
     load = within(load, 0.0, p[FZMAX])
-    friction = longitudinal_friction(camber, load, p) * load
+    friction = longitudinal_friction(p[SIDE] * camber, load, p) * load
     if friction <= 0.0:
         return 0.0
     dfz = load_change(load, p)
@@ -258,3 +272,148 @@ def lateral_relaxation_length(camber: float, load: float, p: Parameters) -> floa
     load = within(load, 0.0, p[FZMAX])
     gamma = within(camber, p[CAMMIN], p[CAMMAX]) * p[LGAY]
     return p[PTY1] * math.sin(2.0 * math.atan(load / (p[PTY2] * p[FZ0]))) * (1.0 - p[PKY3] * abs(gamma)) * p[R0]
+
+
+def arctangent(x: float) -> float:
+    """``atan x`` to 3e-16 of itself, compiled in line: reduced to ``|z| < tan(pi/8)``, there a polynomial."""
+    size = abs(x)
+    large = 1.0 if size > 2.414213562373095 else 0.0
+    middle = 1.0 - large if size > 0.41421356237309503 else 0.0
+    z = ((size - middle) * (1.0 - large) - large) / (1.0 + middle * size + large * (size - 1.0))
+    u = z * z
+    v = u * u
+    w = v * v
+    low = 1.0 - 0.3333333333333312 * u + v * (0.19999999999940535 - 0.14285714279231376 * u)
+    high = 0.11111110744489916 - 0.09090896805970061 * u + v * (0.07692045380163111 - 0.06662953121072139 * u)
+    highest = 0.058468911831827994 - 0.0503516960175827 * u + v * (0.03796709126162387 - 0.01780747025122684 * u)
+    return math.copysign(0.25 * math.pi * (middle + 2.0 * large) + z * (low + w * (high + w * highest)), x)
+
+
+def sine(x: float) -> float:
+    """``sin x`` to 4e-16, compiled in line: reduced to ``|r| < pi/2``, there a polynomial; for arguments of a few turns."""
+    half_turns = math.floor(x * 0.3183098861837907 + 0.5)
+    r = x - half_turns * math.pi
+    u = r * r
+    v = u * u
+    low = 1.0 - 0.16666666666666666 * u + v * (0.00833333333333318 - 0.00019841269841206817 * u)
+    high = 2.7557319210960864e-06 - 2.5052106869068886e-08 * u
+    high += v * (1.6058939909535364e-10 - 7.643003499120689e-13 * u + 2.7213494857029824e-15 * v)
+    return r * (low + v * v * high) * (1 - 2 * (half_turns & 1))
+
+
+def equivalent_tangent(angle: float, ratio: float) -> float:
+    """Tangent of the size of `equivalent_slip`, for ``ratio = K_x kappa/K_y``, with ``tan² = sin²/(1 - sin²)``."""
+    square = sine(angle) ** 2
+    return math.sqrt(square / (1.0 - square) + ratio * ratio)
+
+
+def magic_formula_contact(  # noqa: PLR0915 - one long formula, in the order in which the processor overlaps it best
+    kappa: float,
+    tan_alpha: float,
+    camber: float,
+    load: float,
+    rolling: float,
+    lateral: float,
+    friction: float,
+    p: Parameters,
+    out: MutableSequence[float],
+) -> None:
+    """All of the functions above in one, as a contact law (see `contact_tyre.ContactLaw`).
+
+    The road's friction f acts as if LMUX and LMUY were f times what they are: it multiplies the friction, the vertical
+    shifts and the residual moment and divides the stiffness factors of the moment; the slip stiffnesses stay. The cosine
+    of an arc tangent is ``1/sqrt(1 + x²)``, the sine of twice one ``2 x/(1 + x²)``. Arc tangents that do not need each other
+    stand side by side, because then they are computed at the same time.
+
+    Names end in what they belong to: x, y the forces, a, k their weights over alpha and kappa, t the trail, r the residual.
+    """
+    share = max(0.0, load) * p[PER_FZ0]
+    radius = p[R0] - p[DEFLECTION] * (p[DREFF] * arctangent(p[BREFF] * share) + p[FREFF] * share)
+    load = min(load, p[FZMAX])
+    if load < SMALLEST_LOAD:
+        for i in range(5):
+            out[i] = 0.0
+        out[5], out[6], out[7] = p[SIGMA_LEAST], p[SIGMA_LEAST], radius
+        return
+    side, grip, size = p[SIDE], max(friction, SMALLEST_FRICTION), load * p[R0]
+    kappa = within(kappa, p[KPUMIN], p[KPUMAX])
+    alpha = within(side * arctangent(tan_alpha), p[ALPMIN], p[ALPMAX])
+    camber = within(side * camber, p[CAMMIN], p[CAMMAX])
+    dfz = load * p[PER_FZ0] - 1.0
+
+    gamma = camber * p[LGAX]
+    stiffness_x = load * (p[PKX1] + p[PKX2] * dfz) * math.exp(p[PKX3] * dfz)
+    peak_x = grip * load * max(0.0, (p[PDX1] + p[PDX2] * dfz) * (1.0 - p[PDX3] * gamma * gamma))
+    slip_x = kappa + p[PHX1] + p[PHX2] * dfz
+    e_x = min(1.0, (p[PEX1] + (p[PEX2] + p[PEX3] * dfz) * dfz) * (1.0 - math.copysign(p[PEX4], p[PEX4] * slip_x)))
+    gamma = camber * p[LGAY]
+    lean, heavy, heavy_sigma = 1.0 - p[PKY3] * abs(gamma), load * p[PER_KY_LOAD], load * p[PER_SY_LOAD]
+    stiffness_y = p[KY_MOST] * lean * 2.0 * heavy / (1.0 + heavy * heavy)
+    peak_y = grip * load * max(0.0, (p[PDY1] + p[PDY2] * dfz) * (1.0 - p[PDY3] * gamma * gamma))
+    vertical_y = grip * load * (p[PVY1] + p[PVY2] * dfz + (p[PVY3] + p[PVY4] * dfz) * gamma)
+    slip_y = alpha + p[PHY1] + p[PHY2] * dfz + p[PHY3] * gamma
+    skew = p[PEY3] + p[PEY4] * gamma
+    e_y = min(1.0, (p[PEY1] + p[PEY2] * dfz) * (1.0 - math.copysign(skew, skew * slip_y)))
+    gamma = camber * p[LGAZ]
+    slip_t = alpha + p[QHZ1] + p[QHZ2] * dfz + (p[QHZ3] + p[QHZ4] * dfz) * gamma
+    b_t = (p[QBZ1] + (p[QBZ2] + p[QBZ3] * dfz) * dfz) * (1.0 + p[QBZ4] * gamma + p[QBZ5] * abs(gamma)) / grip
+    b_r = p[QBZ9] / grip
+    b_a = p[RBX1] / math.sqrt(1.0 + (p[RBX2] * kappa) ** 2)
+    b_k = p[RBY1] / math.sqrt(1.0 + (p[RBY2] * (alpha - p[RBY3])) ** 2)
+    shift_k = p[RHY1] + p[RHY2] * dfz
+    e_a, e_k = min(1.0, p[REX1] + p[REX2] * dfz), min(1.0, p[REY1] + p[REY2] * dfz)
+
+    # B times slip of every curve
+    x, y, a, k = 0.0, 0.0, b_a * (alpha + p[RHX1]), b_k * (kappa + shift_k)
+    if peak_x > 0.0:
+        x = stiffness_x / (p[PCX1] * peak_x) * slip_x
+    if peak_y > 0.0:
+        y = stiffness_y / (p[PCY1] * peak_y) * slip_y
+        b_r += p[QBZ10] * stiffness_y / peak_y
+    ratio = p[COMBINED] * stiffness_x * kappa / stiffness_y
+    t, r = equivalent_tangent(slip_t, ratio), equivalent_tangent(slip_y + vertical_y / stiffness_y, ratio)
+    t, r = arctangent(t), arctangent(r)
+    t, r = b_t * math.copysign(t, slip_t), b_r * r
+    # the inner arc tangents, the outer ones, the curves
+    in_x, in_y, in_a, in_k = arctangent(x), arctangent(y), arctangent(a), arctangent(k)
+    in_t, skew = arctangent(t), arctangent(b_t * p[QCZ1] * slip_t)
+    e_t = p[QEZ1] + (p[QEZ2] + p[QEZ3] * dfz) * dfz
+    e_t = min(1.0, e_t * (1.0 + (p[QEZ4] + p[QEZ5] * gamma) * (2.0 / math.pi) * skew))
+    x, y = arctangent(x - e_x * (x - in_x)), arctangent(y - e_y * (y - in_y))
+    a, k = arctangent(a - e_a * (a - in_a)), arctangent(k - e_k * (k - in_k))
+    t = arctangent(t - e_t * (t - in_t))
+    fx, fy = peak_x * sine(p[PCX1] * x), peak_y * sine(p[PCY1] * y)
+    a, k = sine(0.5 * math.pi + p[RCX1] * a), sine(0.5 * math.pi + p[RCY1] * k)
+    trail = size * p[PER_FZN] * (p[QDZ1] + p[QDZ2] * dfz) * (1.0 + (p[QDZ3] + p[QDZ4] * gamma) * gamma)
+    trail *= sine(0.5 * math.pi + p[QCZ1] * t)
+    residual = grip * size * (p[QDZ6] + p[QDZ7] * dfz + (p[QDZ8] + p[QDZ9] * dfz) * gamma) / math.sqrt(1.0 + r * r)
+
+    if peak_x > 0.0:
+        fx += grip * load * (p[PVX1] + p[PVX2] * dfz)
+    if peak_y > 0.0:
+        fy += vertical_y
+    whole, arm = fy, 0.0
+    if p[COMBINED] != 0.0:
+        if p[RHX1] != 0.0 or shift_k != 0.0:  # the weights are 1 without the other slip
+            zero_a, zero_k = b_a * p[RHX1], b_k * shift_k
+            in_a, in_k = arctangent(zero_a), arctangent(zero_k)
+            zero_a, zero_k = arctangent(zero_a - e_a * (zero_a - in_a)), arctangent(zero_k - e_k * (zero_k - in_k))
+            a, k = a / sine(0.5 * math.pi + p[RCX1] * zero_a), k / sine(0.5 * math.pi + p[RCY1] * zero_k)
+        steer = peak_y * (p[RVY1] + p[RVY2] * dfz + p[RVY3] * camber)
+        if steer != 0.0:
+            steer *= sine(p[RVY5] * arctangent(p[RVY6] * kappa)) / math.sqrt(1.0 + (p[RVY4] * alpha) ** 2)
+        fx, fy = a * fx, k * fy
+        whole = fy + steer
+        arm = p[R0] * (p[SSZ1] + p[SSZ2] * whole * p[PER_FZN] + (p[SSZ3] + p[SSZ4] * dfz) * camber)
+
+    heading = rolling / math.sqrt(rolling * rolling + lateral * lateral + 0.01)
+    speed = abs(rolling) * p[PER_VREF]
+    resistance = p[QSY1] + p[QSY2] * fx * p[PER_FZN] + p[QSY3] * speed + p[QSY4] * speed**4
+    sigma_x = size * p[PER_FZN] * (p[PTX1] + p[PTX2] * dfz) * math.exp(-p[PTX3] * dfz)
+    sigma_y = p[SY_MOST] * lean * 2.0 * heavy_sigma / (1.0 + heavy_sigma * heavy_sigma)
+    out[0] = fx
+    out[1] = side * whole
+    out[2] = side * size * (p[QSX1] - p[QSX2] * camber + p[QSX3] * whole * p[PER_FZN])
+    out[3] = -size * max(0.0, resistance) * heading
+    out[4] = side * ((residual - trail * fy) * heading + arm * fx)
+    out[5], out[6], out[7] = max(sigma_x, p[SIGMA_LEAST]), max(sigma_y, p[SIGMA_LEAST]), radius

@@ -42,6 +42,8 @@ _SECTIONS = {
     "OVERTURNING_COEFFICIENTS": "overturning",
     "ROLLING_COEFFICIENTS": "rolling",
 }
+_OF_THE_TYRE = ("VERTICAL_STIFFNESS", "VERTICAL_DAMPING")
+"""Keys of [VERTICAL] that every kind of tyre has; its fields are called the same in small letters."""
 _WITHOUT_EFFECT = {"QTZ1", "MBELT", "LGYR", "PTX4", "PTY3", "LKG", "LCZ", "LIP"}
 """Coefficients of the standard that describe what is not modelled here: gyroscopic couple, damping of the slip, pressure."""
 _FORMATS = ("PAC2002", "MF_05", "USER")
@@ -73,7 +75,9 @@ def load_tyre(path: str | Path) -> MagicFormulaTyre:
             coefficients: Any = MagicFormulaTyre.model_fields[field].annotation
             known = coefficients.model_fields
             for key, text in values.items():
-                if key in known:
+                if key in _OF_THE_TYRE:
+                    data[key.lower()] = _value(key, text, factors, section, source)
+                elif key in known:
                     data[field][key] = _value(key, text, factors, section, source)
                 elif section.endswith("_COEFFICIENTS"):
                     _refuse_effect(key, text, known, section, source)
@@ -164,6 +168,8 @@ def _refuse_effect(key: str, text: str, known: Any, section: str, source: str) -
 
 def _key_in_file(key: str) -> str:
     """``longitudinal.PCX1`` -> ``LONGITUDINAL_COEFFICIENTS.PCX1``; a range's section is found by its key."""
+    if key.upper() in _OF_THE_TYRE:
+        return f"VERTICAL.{key.upper()}"
     field, _, name = key.partition(".")
     if field == "ranges":
         start = {"KPU": "LONG_SLIP_RANGE", "ALP": "SLIP_ANGLE_RANGE", "CAM": "INCLINATION_ANGLE_RANGE"}

@@ -1,0 +1,122 @@
+"""Memory of a car that drives freely: which numbers the compiled car reads, and which it writes, by name and in order.
+
+The numbers lie in one custom numeric of the MJCF file, `CAR_NUMERIC`: a head (`HEAD`), four wheels (`WHEEL` each), and
+tables and tyre parameters behind them, which head and wheels address by their distance from the beginning.
+What the car writes at every stage (`SIGNALS`) lies at the end of mjData's `userdata`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ..names import CORNERS
+
+CAR_MARK = 20070614.0
+"""First number of the block of a car that drives freely."""
+CAR_NUMERIC = "susp_mj_car"
+MOST_GEARS = 12
+CRUISE_ABOVE, CRUISE_DOWN = 2.8, 1.2
+"""A car that begins to run cruises in the highest gear in which the engine turns so many times faster than idling, and with the speed
+controller in charge it shifts down below the second."""
+
+HEAD = (
+    "mark", "length", "freedoms", "rig",
+    # actuators whose `ctrl` are the inputs; -1 where there is none
+    "steering_wheel", "driver", "speed_target", "speed_control", "engine", "brake", "wind_x", "wind_y",
+    "heave_target", "roll_target", "pitch_target",
+    # steering
+    "steering_ratio", "steering_limit", "wheelbase", "rear_axle_x", "ground_z",
+    # speed controller
+    "control_gain", "control_integral",
+    # air
+    "air_pressure", "drag", "lift_front", "lift_rear", "side", "yaw", "air_x",
+    # power train
+    "driven_rear", "engine_inertia", "idle_speed", "idle_gain", "idle_torque", "coupling", "converter", "coupling_limit", "final_drive",
+    "efficiency", "shift_up", "shift_down", "shift_time", "gears", *(f"gear_{i}" for i in range(1, MOST_GEARS + 1)), "full_torque", "drag_torque",
+    # rig that holds the body
+    "design_x", "design_y", "design_z", "rig_stiffness", "rig_damping", "rig_rate_x", "rig_rate_y", "rig_rate_z", "rig_damping_x", "rig_damping_y", "rig_damping_z",
+)  # fmt: skip
+"""Numbers of the car as a whole; tables are given by their place in the block."""
+WHEEL = (
+    "side", "rear", "x", "y", "z", "travel_freedom", "steer_freedom", "spin_freedom", "tyre", "steering",
+    "ackermann", "trail", "scrub", "drive_share", "brake_torque", "tyre_law", "tyre_parameters", "radius", "stiffness", "damping", "design_height",
+    "lateral", "longitudinal", "toe", "camber", "swing", "toe_lateral", "camber_lateral", "toe_longitudinal", "toe_aligning",
+    "rig_longitudinal", "rig_lateral", "rig_aligning",
+)  # fmt: skip
+"""Numbers of one wheel."""
+CAR_SIGNALS = (
+    "gear", "shift_began", "trim_angle", "trimming", "driver_rate", "control_rate", "engine_rate",
+    "steering_wheel_angle", "accelerator", "brake_pedal", "engine_speed", "engine_torque", "path_deviation",
+    "control_force", "speed",
+)  # fmt: skip
+"""What the car writes; `gear`, `shift_began` and `trim_angle` it also remembers from one step to the next. While
+`trimming` is not 0 it does not shift, and its pedal knows no limits."""
+WHEEL_SIGNALS = (
+    # the tyre law's results, in its order
+    "longitudinal_force", "lateral_force", "overturning_moment", "rolling_moment", "aligning_moment", "relaxation_x", "relaxation_y", "rolling_radius",
+    "wheel_load", "slip_ratio", "slip_angle", "camber_angle", "steer_angle", "inclination_angle", "wheel_speed", "drive_torque", "brake_torque",
+    "road_height", "wheel_displacement", "contact_x", "contact_y", "friction",
+    # rates of the wheel's inner states, in their order
+    "slip_ratio_rate", "slip_rate", "brake_rate", "elastic_x_rate", "elastic_y_rate", "elastic_moment_rate",
+)  # fmt: skip
+"""What each wheel writes."""
+WHEEL_STATES = 6
+"""Inner states of a wheel: kappa, tan alpha, brake bristle, and F_x, F_y, M_z as the elastic suspension feels them, a little later."""
+SIGNALS = (*CAR_SIGNALS, *(f"{corner}_{signal}" for corner in CORNERS for signal in WHEEL_SIGNALS))
+"""Names of everything the car writes, in order."""
+
+
+def table_1d(start: float, spacing: float, values: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """A table as the compiled car reads it: ``start, spacing, n, value, slope, value, slope, …``; cubic between the points."""
+    return np.concatenate([[start, spacing, len(values)], np.column_stack([values, slopes]).ravel()])
+
+
+def sampled(places: Sequence[float], values: Sequence[float], *, smooth: bool, count: int = 65) -> np.ndarray:
+    """`table_1d` through given points, sampled evenly: a cubic spline if `smooth`, else a monotone cubic; straight on outside.
+
+    Args:
+        places: (n,) strictly increasing.
+        values: (n,).
+        smooth: for curves of a mechanism; False for measured force curves, which must not overshoot.
+        count: number of even points.
+    """
+    from scipy.interpolate import CubicSpline, PchipInterpolator
+
+    x, y = np.asarray(places, float), np.asarray(values, float)
+    even = np.linspace(x[0], x[-1], count)
+    if len(x) == 2:
+        slope = (y[1] - y[0]) / (x[1] - x[0])
+        return table_1d(even[0], even[1] - even[0], y[0] + slope * (even - x[0]), np.full(count, slope))
+    curve = CubicSpline(x, y) if smooth else PchipInterpolator(x, y)
+    return table_1d(even[0], even[1] - even[0], curve(even), curve(even, 1))
+
+
+def table_2d(start: float, spacing: float, tables: Sequence[np.ndarray]) -> np.ndarray:
+    """Tables over one quantity for even values of a second: ``start, spacing, m, stride``, then the `table_1d` one after another."""
+    return np.concatenate([[start, spacing, len(tables), len(tables[0])], *tables])
+
+
+def car_block(head: Mapping[str, float], wheels: Sequence[Mapping[str, float]], tables: Sequence[tuple[str, int, np.ndarray]]) -> np.ndarray:
+    """The block: head, wheels, tables.
+
+    Args:
+        head, wheels: values by name; names left out are 0.
+        tables: (name, wheel number or -1 for the head, numbers); each is put behind and its place entered under its name. Equal
+            tables share one place.
+    """
+    unknown = {*head} - {*HEAD} | {name for wheel in wheels for name in wheel} - {*WHEEL}
+    if unknown:
+        raise KeyError(f"not in the block: {sorted(unknown)}")
+    block = [*(float(head.get(name, 0.0)) for name in HEAD), *(float(wheel.get(name, 0.0)) for wheel in wheels for name in WHEEL)]
+    behind: dict[bytes, int] = {}
+    for name, wheel, numbers in tables:
+        content = np.asarray(numbers, float).tobytes()
+        if content not in behind:
+            behind[content] = len(block)
+            block.extend(np.asarray(numbers, float).tolist())
+        place = HEAD.index(name) if wheel < 0 else len(HEAD) + wheel * len(WHEEL) + WHEEL.index(name)
+        block[place] = float(behind[content])
+    block[HEAD.index("mark")], block[HEAD.index("length")] = CAR_MARK, float(len(block))
+    return np.array(block)

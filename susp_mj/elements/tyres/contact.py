@@ -1,0 +1,96 @@
+"""The tyres of the handling car, by the `kind` that files choose them by."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field
+
+from ...description import Description
+from ...errors import CallbackError
+from ...units import Dimensionless, Stiffness
+from ..element import chosen_kind
+from ..law import helpers
+from .contact_tyre import ContactForces, ContactLaw, ContactTyre, VerticalDamping
+from .linear import LinearContactTyre
+from .magic_formula import MagicFormulaTyre
+from .tir import load_tyre
+
+CONTACT_TYRES: dict[str, type[ContactTyre]] = {"magic_formula": MagicFormulaTyre, "linear": LinearContactTyre}
+CONTACT_LAWS: dict[int, ContactLaw] = {tyre.law.number: tyre.law for tyre in CONTACT_TYRES.values()}
+
+
+class TyreFile(Description):
+    """A Magic Formula tyre as a vehicle file gives it: a tyre property file and what is to differ from it.
+
+    Attributes:
+        file: path of the ``.tir`` file; its version decides which tyre comes of it.
+        vertical_stiffness: C_z [N/m] in place of the file's.
+        vertical_damping: D_z [N s/m] in place of the file's.
+        scaling: scale factors in place of the file's, e.g. ``{LMUY = 0.9}``.
+    """
+
+    kind: Literal["magic_formula"] = "magic_formula"
+    file: Path
+    vertical_stiffness: Stiffness | None = None
+    vertical_damping: VerticalDamping | None = None
+    scaling: dict[str, Dimensionless] = Field(default_factory=dict)
+
+    def tyre(self) -> ContactTyre:
+        """The tyre that the file describes.
+
+        Raises:
+            InputError: in the tyre property file.
+        """
+        tyre = load_tyre(self.file)
+        own = self.model_dump(include={"vertical_stiffness", "vertical_damping"}, exclude_none=True)
+        data = tyre.model_dump()
+        return type(tyre).model_validate({**data, **own, "scaling": {**data["scaling"], **self.scaling}})
+
+
+def register_contact_tyre(tyre: type[ContactTyre]) -> None:
+    """Make a tyre of your own available by its `kind`, in files and in the compiled car.
+
+    Args:
+        tyre: subclass of ContactTyre with `kind` as a `Literal`, `law` and `parameters`.
+
+    Raises:
+        CallbackError: its kind or the number of its law is taken by something else, or the law calls functions of
+            another module.
+    """
+    kind = tyre.model_fields["kind"].default
+    if not isinstance(kind, str):
+        raise CallbackError(f"{tyre.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")
+    if CONTACT_TYRES.get(kind, tyre) is not tyre:
+        raise CallbackError(f"kind '{kind}' of {tyre.__name__} is taken by {CONTACT_TYRES[kind].__name__}")
+    law = tyre.law
+    if CONTACT_LAWS.get(law.number, law) != law:
+        raise CallbackError(f"law '{law.name}' has the same number as '{CONTACT_LAWS[law.number].name}'; rename it")
+    helpers(law.contact)
+    CONTACT_TYRES[kind] = tyre
+    CONTACT_LAWS[law.number] = law
+
+
+def _chosen(data: Any) -> Any:
+    """A tyre by its kind; of a Magic Formula without its sections, the file is read."""
+    if not isinstance(data, dict):
+        return data
+    chosen = chosen_kind(data, CONTACT_TYRES)
+    if issubclass(chosen, MagicFormulaTyre) and "model" not in data:
+        return TyreFile.model_validate(data).tyre()
+    return chosen.model_validate(data)
+
+
+AnyContactTyre = Annotated[ContactTyre, BeforeValidator(_chosen)]
+
+__all__ = [
+    "CONTACT_LAWS",
+    "CONTACT_TYRES",
+    "AnyContactTyre",
+    "ContactForces",
+    "ContactLaw",
+    "ContactTyre",
+    "TyreFile",
+    "register_contact_tyre",
+]

@@ -1,0 +1,226 @@
+"""Trim: the steady straight running from which a car that drives freely begins a manoeuvre."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from .elements.car import CRUISE_ABOVE, HEAD, SIGNALS, WHEEL
+from .elements.law import ACTUATOR_MARK
+from .equilibrium import rest_states, solve
+from .errors import InputError, SimulationError
+from .names import CORNERS
+from .plant import Plant
+
+_FORCES = 1e3  # N and N m: scale of the inner states that are forces
+_SPEEDS = 10.0  # rad/s
+_BRISTLE = 2  # which inner state of a wheel is the brake's
+_TRIM_ANGLE, _TRIMMING, _GEAR, _SHIFT_BEGAN = (SIGNALS.index(name) for name in ("trim_angle", "trimming", "gear", "shift_began"))
+SETTLED = 1e-6
+"""Largest acceleration that counts as none [m/s² or rad/s²]."""
+TOP_SPEED_WITHIN = 0.1
+"""Accuracy of the top speed that an error names [m/s]."""
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """What the compiled code reads while a car runs; kept alive here. See `compiled.attach_input`."""
+
+    inputs: np.ndarray
+    road: np.ndarray | None = None
+    driver: np.ndarray | None = None
+
+
+def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
+    """Data of the car running straight along x at a steady speed, its front axle at x = 0: nothing accelerates, inner states rest.
+
+    Solved for: height, roll, pitch and side slip of the body, travels, steering, wheel speeds, the inner states of tyres and
+    engine, the controller's force, and the steering wheel angle that keeps it straight.
+
+    Args:
+        blocks: inputs, held at their first value, and road.
+        speed: [m/s].
+
+    Raises:
+        InputError: the car cannot go that fast, or cannot carry its load.
+        SimulationError: no steady running found.
+    """
+    data, residual = _solved(plant, blocks, speed)
+    if speed > 0 and plant.meaning.driving and (not residual < SETTLED or _cannot_reach(plant, data)):
+        top = _top_speed(plant, blocks, speed)
+        if 0 < top < speed - TOP_SPEED_WITHIN:
+            raise InputError(
+                f"{speed:.4g} m/s ({3.6 * speed:.1f} km/h) is not allowed; the car goes {top:.1f} m/s ({3.6 * top:.0f} km/h) at most",
+                key="speed",
+            )
+    if not residual < SETTLED:
+        raise SimulationError(
+            f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s in model "
+            f"{plant.meaning.model}; check preloads, sprung mass and tyres"
+        )
+    _check_travel(plant, data)
+    return data
+
+
+def _solved(plant: Plant, blocks: Blocks, speed: float) -> tuple[mujoco.MjData, float]:
+    """Data at the closest found to steady running, and the largest remaining acceleration [m/s² or rad/s²]."""
+    from .compiled import attach_input, install
+
+    install(plant.laws, plant.contacts)
+    model = plant.model
+    unknowns = _Unknowns(plant, speed)
+    data = mujoco.MjData(model)
+    attach_input(data, blocks.inputs, blocks.road, None)
+    own = _own_actuators(model)
+
+    def residual(values: np.ndarray) -> np.ndarray:
+        unknowns.enter(data, values)
+        rest_states(model, data, own)
+        return unknowns.left(data)
+
+    values = solve(residual, unknowns.start())
+    left = residual(values)
+    mujoco.mj_forward(model, data)
+    return data, float(np.max(np.abs(left)))
+
+
+def _own_actuators(model: mujoco.MjModel) -> np.ndarray:
+    """Force elements with an inner state, which rests where it equals the deflection."""
+    return np.flatnonzero((model.actuator_actadr >= 0) & (model.actuator_user[:, 0] == ACTUATOR_MARK))
+
+
+class _Unknowns:
+    """Which numbers of mjData are solved for, and which accelerations and rates must vanish."""
+
+    def __init__(self, plant: Plant, speed: float) -> None:
+        model = self.model = plant.model
+        self.speed, self.driving = speed, plant.meaning.driving
+        joint = model.joint
+        self.travels = [int(joint(f"{corner}_travel").qposadr[0]) for corner in CORNERS]
+        self.steers = [int(joint(f"{corner}_steer").qposadr[0]) for corner in CORNERS[:2]]
+        self.spins = [int(joint(f"{corner}_spin").dofadr[0]) for corner in CORNERS]
+        cars = np.flatnonzero((model.actuator_actadr >= 0) & (model.actuator_user[:, 0] != ACTUATOR_MARK))
+        names = {int(i): model.actuator(int(i)).name for i in cars}
+        self.states = [
+            (int(model.actuator_actadr[i]) + k, names[int(i)], k)
+            for i in cars
+            for k in range(int(model.actuator_actnum[i]))
+            if names[int(i)] != "driver" and self.driving
+        ]
+        self.rates = [address for address, name, _ in self.states if name != "speed_target"]
+        self.free = np.setdiff1d(np.arange(model.nv), [] if self.driving else self.spins)
+        head = dict(zip(HEAD, model.numeric_data[: len(HEAD)], strict=True))
+        self.place = np.array([head[f"design_{axis}"] for axis in "xyz"])
+        radius = float(model.numeric_data[len(HEAD) + WHEEL.index("radius")])
+        self.spin = speed / radius
+        self.gear, self.engine = _cruising(head, self.spin)
+
+    def scales(self) -> np.ndarray:
+        """Size of each unknown."""
+        states = [_state_scale(name, k) for _, name, k in self.states]
+        return np.array([*[1.0] * 4, *[1.0] * 6, *([_SPEEDS] * 4 if self.driving else [1.0, 1.0]), *states, *([1.0] if self.driving else [])])
+
+    def start(self) -> np.ndarray:
+        """First guess: level, wheels rolling."""
+        sliding = float(self.speed > 0)
+        states = [
+            self.engine / _SPEEDS if name == "engine" else sliding if name.endswith("tyre") and k == _BRISTLE else 0.0
+            for _, name, k in self.states
+        ]
+        spins = [self.spin / _SPEEDS] * 4 if self.driving else [0.0, 0.0]
+        return np.array([*[0.0] * 10, *spins, *states, *([0.0] if self.driving else [])])
+
+    def enter(self, data: mujoco.MjData, values: np.ndarray) -> None:
+        """Put the unknowns into the data."""
+        v = values * self.scales()
+        data.qpos[:], data.qvel[:] = 0.0, 0.0
+        data.qpos[:3] = self.place + [0.0, 0.0, v[0]]
+        roll, pitch = v[1], v[2]
+        if self.driving:
+            data.qvel[:2] = self.speed, v[3]
+            data.qvel[self.spins] = v[10:14]
+            signals = signals_of(self.model, data)
+            signals[_TRIM_ANGLE], signals[_TRIMMING] = v[-1], 1.0
+            signals[_GEAR], signals[_SHIFT_BEGAN] = self.gear, -1e3
+            yaw = 0.0
+        else:
+            data.qpos[:2] += v[10:12]
+            yaw = v[3]
+        mujoco.mju_euler2Quat(data.qpos[3:7], [roll, pitch, yaw], "XYZ")
+        data.qpos[self.travels] = v[4:8]
+        data.qpos[self.steers] = v[8:10]
+        for i, (address, _, _) in enumerate(self.states):
+            data.act[address] = v[14 + i]
+
+    def left(self, data: mujoco.MjData) -> np.ndarray:
+        """Accelerations and rates that remain."""
+        states = dict.fromkeys(self.rates)
+        scale = [_state_scale(name, k) for address, name, k in self.states if address in states]
+        return np.concatenate([data.qacc[self.free], data.act_dot[self.rates] / np.array(scale) if self.rates else []])
+
+
+def _cruising(head: dict[str, float], spin: float) -> tuple[float, float]:
+    """Gear in which one cruises, and the engine's speed there [rad/s]; the compiled car chooses by the same rule."""
+    gear = int(head["gears"])
+    while gear > 1 and spin * head["final_drive"] * head[f"gear_{gear}"] < CRUISE_ABOVE * head["idle_speed"]:
+        gear -= 1
+    return float(gear), max(spin * head["final_drive"] * head[f"gear_{max(gear, 1)}"], head["idle_speed"])
+
+
+def signals_of(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
+    """What the compiled car writes, in the order of `elements.car.SIGNALS`; a view into the data."""
+    return data.userdata[model.nuserdata - len(SIGNALS) :]
+
+
+def trim_angle(plant: Plant, data: mujoco.MjData) -> float:
+    """Steering wheel angle [rad] that keeps the car straight; 0 for a plant that is not a car."""
+    return float(signals_of(plant.model, data)[_TRIM_ANGLE]) if plant.contacts else 0.0
+
+
+def set_trim_angle(plant: Plant, data: mujoco.MjData, angle: float) -> None:
+    """Let every steering input add to this angle."""
+    if plant.contacts:
+        signals_of(plant.model, data)[_TRIM_ANGLE] = angle
+
+
+def _state_scale(name: str, k: int) -> float:
+    if name == "engine":
+        return _SPEEDS
+    if name == "speed_target" or (name.endswith("tyre") and k >= 3):
+        return _FORCES
+    return 1.0
+
+
+def _cannot_reach(plant: Plant, data: mujoco.MjData) -> bool:
+    """Whether the controller asks for more than the engine gives."""
+    return bool(signals_of(plant.model, data)[SIGNALS.index("accelerator")] > 1.0)
+
+
+def _top_speed(plant: Plant, blocks: Blocks, too_fast: float) -> float:
+    """Largest speed with steady running below one that is too fast [m/s]."""
+    low, high = 0.0, too_fast
+    while high - low > TOP_SPEED_WITHIN:
+        middle = (low + high) / 2
+        trial = copy.copy(blocks)
+        data, residual = _solved(plant, trial, middle)
+        if residual < SETTLED and not _cannot_reach(plant, data):
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def _check_travel(plant: Plant, data: mujoco.MjData) -> None:
+    """Refuse a start on a stop: there the springs do not carry the car."""
+    for travel in plant.meaning.travels:
+        deflection = float(data.qpos[int(plant.model.joint(f"{travel.station}_travel").qposadr[0])])
+        if not travel.rebound < deflection < travel.compression:
+            raise InputError(
+                f"cannot carry load '{plant.meaning.load}': its equilibrium lies at {1000 * deflection:.1f} mm, outside the travel "
+                f"from {1000 * travel.rebound:.0f} to {1000 * travel.compression:.0f} mm; change preload, rate or load",
+                key=f"{travel.key}.spring",
+                source=plant.meaning.source,
+            )

@@ -1,0 +1,173 @@
+"""Made-up runs of a car that drives freely, of which everything is known in closed form, for numbers and plots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import lsim
+
+from evaluation import NUMBERS
+from evaluation.compare import Comparison, Configuration, evaluate
+from susp_mj.manoeuvre import Manoeuvre
+from susp_mj.meaning import Input
+from susp_mj.names import CORNERS
+from susp_mj.run import Run, described
+
+STATIC = {"fl": 5500.0, "fr": 5500.0, "rl": 5000.0, "rr": 5000.0}
+
+
+def driven(manoeuvre: Manoeuvre, quantity: str, time: np.ndarray) -> np.ndarray:
+    """What a manoeuvre does to an input of the car."""
+    found = manoeuvre.drive(Input(quantity, "", 0.0, 0.0, ()), time)
+    return np.zeros_like(time) if found is None else found[0]
+
+
+def made_up(manoeuvre: Manoeuvre, time: np.ndarray, facts: dict[str, float] | None = None, **channels: np.ndarray) -> Run:
+    """A run of a freely driving car; channels that are not given are zero, wheel loads static. Names with a station are per wheel."""
+    values = dict.fromkeys(
+        ("position_x", "position_y", "yaw_angle", "yaw_rate", "side_slip_angle", "rear_side_slip_angle", "lateral_acceleration"), 0.0 * time
+    )
+    values |= dict.fromkeys(("longitudinal_acceleration", "body_displacement", "body_acceleration", "roll_angle", "pitch_angle"), 0.0 * time)
+    values |= {name: driven(manoeuvre, name, time) for name in ("steering_wheel_angle", "accelerator", "brake_pedal", "wind_y")}
+    values["speed"] = np.full_like(time, manoeuvre.driving_speed())
+    for corner in CORNERS:
+        values[f"{corner}_wheel_load"] = np.full_like(time, STATIC[corner])
+        values |= {f"{corner}_{quantity}": 0.0 * time for quantity in ("suspension_deflection", "road_height")}
+        values[f"{corner}_wheel_speed"] = values["speed"] / 0.33
+    values |= channels
+    known = {}
+    for name, each in values.items():
+        station, _, quantity = name.partition("_")
+        station, quantity = (station, quantity) if station in CORNERS else ("", name)
+        known[name] = described(quantity, np.asarray(each, float), station)
+    for quantity, each in manoeuvre.record(time).items():
+        known[quantity] = described(quantity, each)
+    road = manoeuvre.road()
+    meta = {
+        "title": manoeuvre.kind,
+        "vehicle": "made up",
+        "load": "ko",
+        "model": "handling",
+        "manoeuvre": manoeuvre.model_dump(mode="json"),
+        "travel": {corner: [-0.1, 0.09] for corner in CORNERS},
+        "facts": {**Bicycle().facts, **(facts or {})},
+        "road": {"features": [] if road is None else list(road.features)},
+        "step": 1e-3,
+        "versions": {"susp_mj": "0", "mujoco": "0"},
+    }
+    return Run(time, known, meta)
+
+
+@dataclass(frozen=True)
+class Bicycle:
+    """Linear bicycle model with roll of second order and a lateral load transfer in proportion to the lateral acceleration."""
+
+    mass: float = 2140.0
+    inertia: float = 4400.0
+    front: float = 1.55
+    rear: float = 1.53
+    front_stiffness: float = 110e3
+    rear_stiffness: float = 150e3
+    ratio: float = 17.0
+    track: float = 1.4
+    height: float = 0.58
+    front_share: float = 0.62
+    roll_gradient: float = 0.0125
+    roll_frequency: float = 1.6
+    roll_damping: float = 0.35
+
+    @property
+    def wheelbase(self) -> float:
+        return self.front + self.rear
+
+    @property
+    def facts(self) -> dict[str, float]:
+        return {
+            "wheelbase": self.wheelbase,
+            "track_front": self.track,
+            "track_rear": self.track,
+            "steering_ratio": self.ratio,
+            "cg_x": -self.front,
+            "cg_height": self.height,
+            "sprung_mass": 1913.0,
+            "wheel_radius_front": 0.33,
+            "wheel_radius_rear": 0.33,
+        }
+
+    @property
+    def understeer(self) -> float:
+        """EG [rad/(m/s²)]."""
+        return self.mass / self.wheelbase * (self.rear / self.front_stiffness - self.front / self.rear_stiffness)
+
+    def matrices(self, speed: float) -> tuple[np.ndarray, np.ndarray]:
+        """A and B of the states side slip and yaw rate for the angle of the front wheels."""
+        cf, cr, lf, lr, m, j = self.front_stiffness, self.rear_stiffness, self.front, self.rear, self.mass, self.inertia
+        a = [
+            [-(cf + cr) / (m * speed), -1 - (cf * lf - cr * lr) / (m * speed**2)],
+            [-(cf * lf - cr * lr) / j, -(cf * lf**2 + cr * lr**2) / (j * speed)],
+        ]
+        return np.array(a), np.array([[cf / (m * speed)], [cf * lf / j]])
+
+    def transfer(self, frequency: np.ndarray, speed: float) -> dict[str, np.ndarray]:
+        """Exact complex ratios per steering wheel angle."""
+        a, b = self.matrices(speed)
+        s = 2j * np.pi * np.asarray(frequency)
+        states = np.array([np.linalg.solve(each * np.eye(2) - a, b)[:, 0] for each in s]).T / self.ratio
+        slip, yaw = states
+        acceleration = speed * (s * slip + yaw)
+        w = 2 * np.pi * self.roll_frequency
+        roll = acceleration * self.roll_gradient * w**2 / (s**2 + 2 * self.roll_damping * w * s + w**2)
+        return {
+            "side_slip_angle": slip,
+            "yaw_rate": yaw,
+            "lateral_acceleration": acceleration,
+            "roll_angle": roll,
+            "rear_side_slip_angle": slip - self.rear * yaw / speed,
+        }
+
+    def run(self, manoeuvre: Manoeuvre, steering: np.ndarray | None = None, **more: np.ndarray) -> Run:
+        """The model under a manoeuvre's steering, exact between records of a straight line of the steering."""
+        time = np.arange(round(manoeuvre.duration * 1000) + 1) * 1e-3
+        speed = manoeuvre.driving_speed()
+        steering = driven(manoeuvre, "steering_wheel_angle", time) if steering is None else steering
+        a, b = self.matrices(speed)
+        _, states, _ = lsim((a, b, np.eye(2), np.zeros((2, 1))), steering / self.ratio, time)
+        slip, yaw_rate = states.T
+        acceleration = speed * ((a @ states.T)[0] + b[0, 0] * steering / self.ratio + yaw_rate)
+        w = 2 * np.pi * self.roll_frequency
+        _, roll, _ = lsim(([self.roll_gradient * w**2], [1, 2 * self.roll_damping * w, w**2]), acceleration, time)
+        yaw = np.concatenate([[0.0], np.cumsum((yaw_rate[1:] + yaw_rate[:-1]) / 2 * 1e-3)])
+        velocity = speed * np.exp(1j * (yaw + slip))
+        place = np.concatenate([[0.0], np.cumsum((velocity[1:] + velocity[:-1]) / 2 * 1e-3)])
+        moment = self.mass * self.height * acceleration / self.track
+        channels = {}
+        for corner in CORNERS:
+            side = -1.0 if corner.endswith("l") else 1.0
+            share = self.front_share if corner.startswith("f") else 1 - self.front_share
+            channels[f"{corner}_wheel_load"] = np.maximum(STATIC[corner] + side * share * moment, 0.0)
+            channels[f"{corner}_suspension_deflection"] = side * self.track / 2 * roll
+        channels |= dict(
+            steering_wheel_angle=steering,
+            side_slip_angle=slip,
+            rear_side_slip_angle=slip - self.rear * yaw_rate / speed,
+            yaw_rate=yaw_rate,
+            yaw_angle=yaw,
+            lateral_acceleration=acceleration,
+            roll_angle=roll,
+            pitch_angle=0.1 * np.abs(roll),
+            body_displacement=0.02 * np.abs(roll),
+            position_x=place.real - self.front,
+            position_y=place.imag,
+        )
+        return made_up(manoeuvre, time, self.facts, **channels, **more)
+
+
+def compared(*runs: Run, names: tuple[str, ...] = ("configuration 3", "configuration 4", "configuration 5")) -> Comparison:
+    """Made-up runs side by side with every number."""
+    configurations = [
+        Configuration(name, "made up", run, evaluate(run, tuple(NUMBERS))) for name, run in zip(names[: len(runs)], runs, strict=True)
+    ]
+    applying = [name for name in NUMBERS if any(each.numbers[name].applies for each in configurations)]
+    kept = [Configuration(each.name, each.title, each.run, {n: each.numbers[n] for n in applying}) for each in configurations]
+    return Comparison("Handling", "Made-up runs.", kept)
