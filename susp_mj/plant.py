@@ -41,10 +41,7 @@ class Plant:
     def from_spec(cls, spec: mujoco.MjSpec, meaning: Meaning) -> Plant:
         """Compile a specification and write the meaning into it."""
         spec.add_text(name=META, data=meaning.to_json())
-        try:
-            return cls(spec.compile(), meaning)
-        except ValueError as error:
-            raise InputError(f"MuJoCo refuses the model: {' '.join(str(error).split())}", source=meaning.source) from None
+        return cls(compiled(spec, meaning.source), meaning)
 
     @classmethod
     def from_mjcf(cls, path: str | Path) -> Plant:
@@ -122,6 +119,18 @@ class Plant:
                 values += factor * series[source][column]
             results.append((output, values))
         return results
+
+
+def compiled(spec: mujoco.MjSpec, source: str) -> mujoco.MjModel:
+    """The model of a specification; `source` is the file that an error names.
+
+    Raises:
+        InputError: MuJoCo refuses it.
+    """
+    try:
+        return spec.compile()
+    except ValueError as error:
+        raise InputError(f"MuJoCo refuses the model: {' '.join(str(error).split())}", source=source) from None
 
 
 def _check_partners(spec: mujoco.MjSpec, source: str) -> None:

@@ -19,7 +19,7 @@ from .manoeuvre import Manoeuvre
 from .names import channel_name
 from .plant import Plant
 from .run import Channel, Run, described
-from .trim import Blocks, set_trim_angle, trim_angle, trimmed
+from .trim import Blocks, remembered, remind, trimmed
 
 STEP = 1e-3
 """Longest integration step chosen by itself, and spacing of its records [s]."""
@@ -99,9 +99,9 @@ def simulate(
         model = copy.copy(model)
         model.opt.timestep = step
     data.time = 0.0
-    angle = trim_angle(plant, data)
+    memory = remembered(plant, data)
     attach_input(data, blocks.inputs, blocks.road, blocks.driver)
-    set_trim_angle(plant, data, angle)
+    remind(plant, data, memory)
 
     fields = (*_FIELDS, "userdata") if plant.contacts else _FIELDS
     records = np.empty((steps // record_every + 1, sum(getattr(data, name).size for name in fields)))
@@ -167,13 +167,24 @@ def fine_enough(plant: Plant) -> int:
 def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray) -> np.ndarray:
     """(samples, inputs, 2) values and rates of every input of the plant."""
     samples = np.zeros((len(time), len(plant.meaning.inputs), 2))
+    over_ground = plant.meaning.driving and manoeuvre.road() is not None
     for i, place in enumerate(plant.meaning.inputs):
+        if over_ground and place.quantity == "road_height":
+            continue  # the car meets the road itself
         driven = manoeuvre.drive(place, time)
+        if driven is None and plant.meaning.driving:
+            driven = _holding(place.quantity, manoeuvre, time)
         if driven is not None:
             samples[:, i, 0], samples[:, i, 1] = driven
     if not np.isfinite(samples).all():
         raise InputError(f"manoeuvre {manoeuvre.kind} gives an input that is not finite", source="manoeuvre")
     return samples
+
+
+def _holding(quantity: str, manoeuvre: Manoeuvre, time: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """A car keeps the speed of its manoeuvre, or stands braked, unless the manoeuvre says otherwise."""
+    value = {"speed_target": manoeuvre.driving_speed(), "speed_control": 1.0}.get(quantity)
+    return None if value is None else (np.full(len(time), value), np.zeros(len(time)))
 
 
 def _check_step(plant: Plant, step: float) -> None:

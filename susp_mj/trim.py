@@ -175,15 +175,18 @@ def signals_of(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
     return data.userdata[model.nuserdata - len(SIGNALS) :]
 
 
-def trim_angle(plant: Plant, data: mujoco.MjData) -> float:
-    """Steering wheel angle [rad] that keeps the car straight; 0 for a plant that is not a car."""
-    return float(signals_of(plant.model, data)[_TRIM_ANGLE]) if plant.contacts else 0.0
+def remembered(plant: Plant, data: mujoco.MjData) -> dict[int, float]:
+    """What the car carries from the trim into the run, by its place among the signals: steering angle and gear; nothing for other plants."""
+    if not plant.contacts:
+        return {}
+    signals = signals_of(plant.model, data)
+    return {place: float(signals[place]) for place in (_TRIM_ANGLE, _GEAR, _SHIFT_BEGAN)}
 
 
-def set_trim_angle(plant: Plant, data: mujoco.MjData, angle: float) -> None:
-    """Let every steering input add to this angle."""
-    if plant.contacts:
-        signals_of(plant.model, data)[_TRIM_ANGLE] = angle
+def remind(plant: Plant, data: mujoco.MjData, memory: dict[int, float]) -> None:
+    """Give the car what it `remembered` back."""
+    for place, value in memory.items():
+        signals_of(plant.model, data)[place] = value
 
 
 def _state_scale(name: str, k: int) -> float:

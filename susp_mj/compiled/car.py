@@ -220,18 +220,21 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
     engine = int(head[ENGINE])
     engine_speed = act[ints(model.actuator_actadr)[engine]]
     time = data.time
+    trimming = signals[TRIMMING] != 0.0
     gear = shifted_gear(head, signals, time, shaft_speed, weight > 0.0)
     ratio = head[GEAR_1 + gear - 1] * head[FINAL_DRIVE]
     input_speed = shaft_speed * head[GEAR_1 + gear - 1]
     full, _ = looked_up(doubles(base + types.uint64(8 * int(head[FULL_TORQUE]))), engine_speed)
     drag, _ = looked_up(doubles(base + types.uint64(8 * int(head[DRAG_TORQUE]))), engine_speed)
     pedal = demanded
+    if trimming:
+        target, weight, pedal = speed, 1.0, 0.0
     if weight > 0.0:
         error = target - speed
         force = head[CONTROL_GAIN] * error + act[ints(model.actuator_actadr)[int(head[SPEED_TARGET])]]
         torque = force * rolling_radius / (ratio * head[EFFICIENCY])
         wanted = (torque - drag) / (full - drag)
-        pedal += weight * (min(max(wanted, 0.0), 1.0) if signals[TRIMMING] == 0.0 else wanted)
+        pedal += weight * (min(max(wanted, 0.0), 1.0) if not trimming else wanted)
         winding = (wanted > WIND_UP and error > 0.0) or (wanted < 1.0 - WIND_UP and error < 0.0)
         signals[CONTROL_FORCE] = force
         if not winding:
@@ -239,8 +242,8 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
         if target < PARKED and abs(speed) < 0.5:
             signals[PEDAL] = max(signals[PEDAL], weight * HOLD_PEDAL)
             signals[CONTROL_RATE] = 0.0
-            pedal = demanded
-    if signals[TRIMMING] == 0.0:
+            pedal = 0.0 if trimming else demanded
+    if not trimming:
         pedal = min(max(pedal, 0.0), 1.0)
     idle = min(max(head[IDLE_GAIN] * (head[IDLE_SPEED] - engine_speed), 0.0), head[IDLE_TORQUE])
     torque = drag + pedal * (full - drag) + idle

@@ -66,10 +66,10 @@ def _path_at(block, x):
 def deviation(block, x, y):
     """How far a place is to the left of the path of `Driver.block` [m]."""
     radius = block[3]
-    if radius != 0.0 and x > 0.0:
-        return math.copysign(abs(radius) - math.hypot(x, y - radius), radius)
     if radius != 0.0:
-        return y
+        inside = abs(radius) - math.hypot(x, y - radius)
+        around = inside if radius > 0.0 else -inside
+        return y if x <= 0.0 and abs(y) < abs(around) else around  # behind the origin: the way in, or the end of a round
     return y - _path_at(block, x)
 
 

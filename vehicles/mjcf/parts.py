@@ -19,6 +19,7 @@ from susp_mj.elements.car import CAR_NUMERIC, SIGNALS
 from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
 from susp_mj.meaning import Input, Meaning, Output, TimeConstant, Travel
 from susp_mj.names import channel_name
+from susp_mj.plant import compiled
 from susp_mj.simulation import STEP
 
 from ..vehicle import Axle
@@ -232,7 +233,7 @@ class ModelBuilder:
         self.spec.nuserdata = USERDATA_HEADER + len(order)
         if self._car is not None:
             self.spec.nuserdata += len(SIGNALS)
-            self.spec.add_numeric(name=CAR_NUMERIC, data=self._car(self.spec.compile()))
+            self.spec.add_numeric(name=CAR_NUMERIC, data=self._car(compiled(self.spec, self.source)))
         inputs = [
             Input(quantity, station, *self.places.get(station, (0.0, 0.0)), tuple(entries))
             for (quantity, station), entries in self._entries.items()

@@ -308,9 +308,9 @@ def _joints(shape: Saloon) -> list[tuple[_Field, _Field]]:
 
 
 def _band(shell: _Shell, away: _Field, within: _Field) -> tuple[_Shell, _Shell]:
-    """What lies within 4 mm of the zero line of `away`, and the rest: edge by edge, for the band is narrower than a face."""
-    beyond, before = _split(shell, away(shell) - 0.004)
-    band, before = _split(before, away(before) + 0.004)
+    """What lies within 5 mm of the zero line of `away`, and the rest: edge by edge, for the band is narrower than a face."""
+    beyond, before = _split(shell, away(shell) - 0.005)
+    band, before = _split(before, away(before) + 0.005)
     chosen, other = _split(band, within(band))
     return chosen, _together([beyond, before, other])
 
@@ -334,7 +334,7 @@ def _extras(shape: Saloon) -> list[tuple[str, Surface]]:
         extras.append(("paint", _blob((0.075, 0.105, 0.06), (-0.86, side * (wide + 0.06), 1.0))))
         extras.append(("gloss", _blob((0.035, 0.07, 0.018), (-0.84, side * (wide - 0.02), 0.955))))
         for share in (0.44, 0.80):
-            extras.append(("chrome", _blob((0.09, 0.014, 0.014), (shape.x(share), side * (wide - 0.004), 0.80))))
+            extras.append(("chrome", _blob((0.09, 0.014, 0.014), (shape.x(share), side * (wide - 0.005), 0.80))))
         for axle in (0.0, rear):
             extras.append(("liner", _wheelhouse(shape, axle, side)))
     extras.append(("plate", _blob((0.012, 0.25, 0.05), (shape.nose - 0.008, 0.0, 0.39), 0.25)))
@@ -382,7 +382,9 @@ def _split(shell: _Shell, chosen: np.ndarray) -> tuple[_Shell, _Shell]:
     lone = np.where((lone.sum(axis=1) == 1)[:, None], lone, ~lone).argmax(axis=1)
     rows = np.arange(len(crossed))
     a, b, c = (crossed[rows, (lone + k) % 3] for k in range(3))
-    edges, place = np.unique(np.sort(np.concatenate([np.column_stack([a, b]), np.column_stack([a, c])]), axis=1), axis=0, return_inverse=True)
+    edges, place = np.unique(
+        np.sort(np.concatenate([np.column_stack([a, b]), np.column_stack([a, c])]), axis=1), axis=0, return_inverse=True
+    )
     place = np.reshape(place, -1) + len(shell.vertices)
     start, end = edges[:, 0], edges[:, 1]
     share = (chosen[start] / (chosen[start] - chosen[end]))[:, None]
@@ -424,7 +426,9 @@ def _mirrored(surface: Surface) -> Surface:
     """A left half with its right half."""
     assert surface.normals is not None
     flip = np.array([1.0, -1.0, 1.0])
-    return _joined([surface, replace(surface, vertices=surface.vertices * flip, faces=surface.faces[:, ::-1], normals=surface.normals * flip)])
+    return _joined(
+        [surface, replace(surface, vertices=surface.vertices * flip, faces=surface.faces[:, ::-1], normals=surface.normals * flip)]
+    )
 
 
 def _joined(parts: Sequence[Surface]) -> Surface:

@@ -7,17 +7,23 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from ...description import Description
+from ...description import Description, wrong
 from ...errors import CallbackError
 from ...units import Dimensionless, Stiffness
 from ..element import chosen_kind
 from ..law import helpers
 from .contact_tyre import ContactForces, ContactLaw, ContactTyre, VerticalDamping
 from .linear import LinearContactTyre
-from .magic_formula import MagicFormulaTyre
+from .magic_formula import MagicFormula, MagicFormulaTyre
+from .magic_formula_61 import MagicFormula61Tyre
+from .magic_formula_61_coefficients import Pressure
 from .tir import load_tyre
 
-CONTACT_TYRES: dict[str, type[ContactTyre]] = {"magic_formula": MagicFormulaTyre, "linear": LinearContactTyre}
+CONTACT_TYRES: dict[str, type[ContactTyre]] = {
+    "magic_formula": MagicFormulaTyre,
+    "magic_formula_61": MagicFormula61Tyre,
+    "linear": LinearContactTyre,
+}
 CONTACT_LAWS: dict[int, ContactLaw] = {tyre.law.number: tyre.law for tyre in CONTACT_TYRES.values()}
 
 
@@ -25,25 +31,30 @@ class TyreFile(Description):
     """A Magic Formula tyre as a vehicle file gives it: a tyre property file and what is to differ from it.
 
     Attributes:
-        file: path of the ``.tir`` file; its version decides which tyre comes of it.
+        kind: ``magic_formula`` for whichever version the file has, ``magic_formula_61`` to insist on 6.1.
+        file: path of the ``.tir`` file.
         vertical_stiffness: C_z [N/m] in place of the file's.
         vertical_damping: D_z [N s/m] in place of the file's.
+        inflation_pressure: p_i [Pa] in place of the file's; MF 6.1 only.
         scaling: scale factors in place of the file's, e.g. ``{LMUY = 0.9}``.
     """
 
-    kind: Literal["magic_formula"] = "magic_formula"
+    kind: Literal["magic_formula", "magic_formula_61"] = "magic_formula"
     file: Path
     vertical_stiffness: Stiffness | None = None
     vertical_damping: VerticalDamping | None = None
+    inflation_pressure: Pressure | None = None
     scaling: dict[str, Dimensionless] = Field(default_factory=dict)
 
-    def tyre(self) -> ContactTyre:
+    def tyre(self) -> MagicFormula:
         """The tyre that the file describes.
 
         Raises:
             InputError: in the tyre property file.
         """
-        tyre = load_tyre(self.file)
+        tyre = load_tyre(self.file, inflation_pressure=self.inflation_pressure)
+        if self.kind not in ("magic_formula", tyre.kind):
+            raise wrong(f"{self.file.name} is of another version; write kind = 'magic_formula'", "kind")
         own = self.model_dump(include={"vertical_stiffness", "vertical_damping"}, exclude_none=True)
         data = tyre.model_dump()
         return type(tyre).model_validate({**data, **own, "scaling": {**data["scaling"], **self.scaling}})
@@ -77,7 +88,7 @@ def _chosen(data: Any) -> Any:
     if not isinstance(data, dict):
         return data
     chosen = chosen_kind(data, CONTACT_TYRES)
-    if issubclass(chosen, MagicFormulaTyre) and "model" not in data:
+    if issubclass(chosen, MagicFormula) and "model" not in data:
         return TyreFile.model_validate(data).tyre()
     return chosen.model_validate(data)
 

@@ -80,6 +80,10 @@ class MagicFormula61Tyre(MagicFormula):
             raise wrong(f"{pressure:g} Pa is outside the valid {low:g} to {high:g} Pa", "operation.INFLPRES")
         return self
 
+    def at_pressure(self) -> MagicFormula61Tyre:
+        """This tyre, whose stiffness is the one at nominal pressure, with the stiffness at the pressure it runs at."""
+        return self.model_copy(update={"vertical_stiffness": self.vertical_stiffness * self._stiffness_ratio})
+
     @property
     def pressure_change(self) -> float:
         """``dp_i = (p_i - p_i0)/p_i0`` [1]."""

@@ -107,7 +107,7 @@ def scaled_slip(stiffness: float, shape: float, peak: float, slip: float) -> flo
     return stiffness / (shape * peak) * slip if peak > 0.0 else 0.0
 
 
-def contact(  # noqa: PLR0915 - one long formula, in the order in which the processor overlaps it best
+def contact(  # noqa: PLR0915, C901 - one long formula, in the order in which the processor overlaps it best
     kappa: float,
     tan_alpha: float,
     camber: float,

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...description import validate
 from ...errors import InputError, choices
 from ...units import unit_factor
-from .magic_formula import MagicFormulaTyre
+from .magic_formula import MagicFormula, MagicFormulaTyre
+from .magic_formula_61 import MagicFormula61Tyre
 
 _UNITS: dict[str, dict[str, str]] = {
     "LENGTH": {"meter": "m", "m": "m", "cm": "cm", "mm": "mm", "millimeter": "mm", "km": "km"},
@@ -24,13 +26,18 @@ _DIMENSIONS: dict[str, dict[str, int]] = {
     "LONGVL": {"LENGTH": 1, "TIME": -1},
     "VERTICAL_STIFFNESS": {"FORCE": 1, "LENGTH": -1},
     "VERTICAL_DAMPING": {"FORCE": 1, "TIME": 1, "LENGTH": -1},
+    **{key: {"FORCE": 1, "LENGTH": -1} for key in ("LONGITUDINAL_STIFFNESS", "LATERAL_STIFFNESS")},
     **{key: {"FORCE": 1} for key in ("FNOMIN", "FZMIN", "FZMAX")},
+    **{key: {"PRESSURE": 1} for key in ("INFLPRES", "NOMPRES", "PRESMIN", "PRESMAX")},
     **{key: {"ANGLE": 1} for key in ("ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX")},
 }
 """Keys with a dimension, as powers of the [UNITS]; every other number is a coefficient of the formula in radians and SI."""
 _SECTIONS = {
     "MODEL": "model",
+    "OPERATING_CONDITIONS": "operation",
     "VERTICAL": "vertical",
+    "STRUCTURAL": "structure",
+    "INFLATION_PRESSURE_RANGE": "ranges",
     "LONG_SLIP_RANGE": "ranges",
     "SLIP_ANGLE_RANGE": "ranges",
     "INCLINATION_ANGLE_RANGE": "ranges",
@@ -44,21 +51,47 @@ _SECTIONS = {
 }
 _OF_THE_TYRE = ("VERTICAL_STIFFNESS", "VERTICAL_DAMPING")
 """Keys of [VERTICAL] that every kind of tyre has; its fields are called the same in small letters."""
-_WITHOUT_EFFECT = {"QTZ1", "MBELT", "LGYR", "PTX4", "PTY3", "LKG", "LCZ", "LIP"}
-"""Coefficients of the standard that describe what is not modelled here: gyroscopic couple, damping of the slip, pressure."""
+
+
+@dataclass(frozen=True)
+class _Version:
+    """A version of the formula: its tyre, and coefficients that may stand in a file though they have no effect here."""
+
+    name: str
+    tyre: type[MagicFormula]
+    without_effect: frozenset[str]
+
+
+_52 = _Version(
+    "MF 5.2",
+    MagicFormulaTyre,
+    # gyroscopic couple, damping of the slip, pressure
+    frozenset({"QTZ1", "MBELT", "LGYR", "PTX4", "PTY3", "LKG", "LCZ", "LIP"}),
+)
+_61 = _Version(
+    "MF 6.1",
+    MagicFormula61Tyre,
+    # relaxation of other versions, gyroscopic couple, turn slip, fall of friction with speed where it is none
+    frozenset({"PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "QTZ1", "MBELT", "LGYR", "LSGKP", "LSGAL", "LGAX", "LGAY", "LGAZ", "LMP"}),
+)
 _FORMATS = ("PAC2002", "MF_05", "USER")
-_FIT_TYPES = {"6": "MF 5.2", "21": "MF 5.2", "52": "MF 5.2"}
+_FIT_TYPES = {"6": _52, "21": _52, "52": _52, "61": _61, "62": _61}
 _NUMBER = re.compile(r"^[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
 _LINE = re.compile(r"^([A-Za-z_][\w]*)\s*=\s*(?:'([^']*)'|\"([^\"]*)\"|([^$!]*))")
 
 Sections = dict[str, dict[str, str]]
 
 
-def load_tyre(path: str | Path) -> MagicFormulaTyre:
-    """Read a Magic Formula 5.2 tyre from a ``.tir`` file.
+def load_tyre(path: str | Path, *, inflation_pressure: float | None = None) -> MagicFormula:
+    """Read a Magic Formula tyre, version 5.2 or 6.1, from a ``.tir`` file.
 
-    ``[UNITS]`` applies to the radius, speed, stiffness, damping, loads and the ranges of angles and loads; SI where a unit is not given.
-    USE_MODE may carry 10 or 20 for transients (14 is 4), which here are the caller's choice.
+    ``[UNITS]`` applies to the radius, speed, stiffness, damping, loads, pressures and the ranges of angles, loads and
+    pressure; SI where a unit is not given. USE_MODE may carry tens and hundreds for transients (14 is 4), which here are
+    the caller's choice. The vertical stiffness of a 6.1 tyre becomes the one at its inflation pressure.
+
+    Args:
+        path: the file.
+        inflation_pressure: [Pa] in place of the file's; only version 6.1 depends on it.
 
     Raises:
         InputError: not readable, another formula, an unknown unit or coefficient, a missing one, a value that is not allowed.
@@ -66,29 +99,22 @@ def load_tyre(path: str | Path) -> MagicFormulaTyre:
     path = Path(path)
     sections = read_sections(path)
     source = path.name
-    _check_formula(sections.get("MODEL", {}), source)
+    version = _version(sections.get("MODEL", {}), source)
     factors = _unit_factors(sections.get("UNITS", {}), source)
-    data: dict[str, Any] = {field: {} for field in _SECTIONS.values()}
-    for section, values in sections.items():
-        if section in _SECTIONS:
-            field = _SECTIONS[section]
-            coefficients: Any = MagicFormulaTyre.model_fields[field].annotation
-            known = coefficients.model_fields
-            for key, text in values.items():
-                if key in _OF_THE_TYRE:
-                    data[key.lower()] = _value(key, text, factors, section, source)
-                elif key in known:
-                    data[field][key] = _value(key, text, factors, section, source)
-                elif section.endswith("_COEFFICIENTS"):
-                    _refuse_effect(key, text, known, section, source)
+    data = _data(sections, version, factors, source)
     radius = sections.get("DIMENSION", {}).get("UNLOADED_RADIUS")
     if radius is None:
         raise InputError("is required", key="DIMENSION.UNLOADED_RADIUS", source=source)
     data["radius"] = _value("UNLOADED_RADIUS", radius, factors, "DIMENSION", source)
+    if inflation_pressure is not None:
+        if "operation" not in data:
+            raise InputError(f"{version.name} does not depend on it; take a tyre of MF 6.1", key="inflation_pressure", source=source)
+        data["operation"]["INFLPRES"] = inflation_pressure
     try:
-        return validate(MagicFormulaTyre, data, source=source)
+        tyre = validate(version.tyre, data, source=source)
     except InputError as error:
         raise InputError(error.message, key=_key_in_file(error.key), source=source) from None
+    return tyre.at_pressure() if isinstance(tyre, MagicFormula61Tyre) else tyre
 
 
 def read_sections(path: Path) -> Sections:
@@ -120,18 +146,39 @@ def read_sections(path: Path) -> Sections:
     return sections
 
 
-def _check_formula(model: dict[str, str], source: str) -> None:
+def _version(model: dict[str, str], source: str) -> _Version:
+    """The version that a file is written for, by FITTYP or else by its format."""
     fit = model.get("FITTYP")
     if fit is not None and fit not in _FIT_TYPES:
-        known = ", ".join(f"{number} ({name})" for number, name in _FIT_TYPES.items())
+        known = ", ".join(f"{number} ({each.name})" for number, each in _FIT_TYPES.items())
         raise InputError(f"'{fit}' is not supported; choose {known}", key="MODEL.FITTYP", source=source)
     form = model.get("PROPERTY_FILE_FORMAT")
     if form is None and fit is None:
         raise InputError(f"is required; {choices(_FORMATS)}", key="MODEL.PROPERTY_FILE_FORMAT", source=source)
-    if form is not None and form.upper() not in _FORMATS:
+    version = _FIT_TYPES[fit] if fit is not None else _52
+    if form is not None and form.upper() not in _FORMATS and version is _52:
         raise InputError(f"'{form}' is not supported; {choices(_FORMATS, form)}", key="MODEL.PROPERTY_FILE_FORMAT", source=source)
     if form is not None and form.upper() == "USER" and fit is None:
         raise InputError("is required with PROPERTY_FILE_FORMAT 'USER'", key="MODEL.FITTYP", source=source)
+    return version
+
+
+def _data(sections: Sections, version: _Version, factors: dict[str, float], source: str) -> dict[str, Any]:
+    """Values of the sections that the version knows, by its fields."""
+    data: dict[str, Any] = {field: {} for field in _SECTIONS.values() if field in version.tyre.model_fields}
+    for section, values in sections.items():
+        field = _SECTIONS.get(section)
+        if field in data:
+            coefficients: Any = version.tyre.model_fields[field].annotation
+            known = coefficients.model_fields
+            for key, text in values.items():
+                if section == "VERTICAL" and key in _OF_THE_TYRE:
+                    data[key.lower()] = _value(key, text, factors, section, source)
+                elif key in known:
+                    data[field][key] = _value(key, text, factors, section, source)
+                elif section.endswith("_COEFFICIENTS"):
+                    _refuse_effect(key, text, known, section, version, source)
+    return data
 
 
 def _unit_factors(units: dict[str, str], source: str) -> dict[str, float]:
@@ -158,12 +205,13 @@ def _value(key: str, text: str, factors: dict[str, float], section: str, source:
     return number
 
 
-def _refuse_effect(key: str, text: str, known: Any, section: str, source: str) -> None:
+def _refuse_effect(key: str, text: str, known: Any, section: str, version: _Version, source: str) -> None:
     """A coefficient that the formula does not have may stand there only if it changes nothing (0; a scale factor 1)."""
     neutral = 1.0 if section == "SCALING_COEFFICIENTS" else 0.0
-    if key in _WITHOUT_EFFECT or (_NUMBER.match(text) and float(text.upper().replace("D", "E")) == neutral):
+    neutral = 0.0 if key == "LMUV" else neutral
+    if key in version.without_effect or (_NUMBER.match(text) and float(text.upper().replace("D", "E")) == neutral):
         return
-    raise InputError(f"unknown coefficient of MF 5.2; {choices(known, key)}", key=f"{section}.{key}", source=source)
+    raise InputError(f"unknown coefficient of {version.name}; {choices(known, key)}", key=f"{section}.{key}", source=source)
 
 
 def _key_in_file(key: str) -> str:
@@ -172,7 +220,7 @@ def _key_in_file(key: str) -> str:
         return f"VERTICAL.{key.upper()}"
     field, _, name = key.partition(".")
     if field == "ranges":
-        start = {"KPU": "LONG_SLIP_RANGE", "ALP": "SLIP_ANGLE_RANGE", "CAM": "INCLINATION_ANGLE_RANGE"}
+        start = {"KPU": "LONG_SLIP_RANGE", "ALP": "SLIP_ANGLE_RANGE", "CAM": "INCLINATION_ANGLE_RANGE", "PRE": "INFLATION_PRESSURE_RANGE"}
         return f"{start.get(name[:3], 'VERTICAL_FORCE_RANGE')}.{name}"
     section = next((section for section, each in _SECTIONS.items() if each == field), field)
     return ".".join(part for part in (section, name) if part)
