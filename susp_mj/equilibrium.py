@@ -51,14 +51,16 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
     return data
 
 
-def solve(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray) -> np.ndarray:
-    """Root by Newton's method with finite differences and halved steps, until rounding stops the progress.
+def solve(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray, enough: float = 0.0) -> np.ndarray:
+    """Root by Newton's method with finite differences and halved steps, until no residual exceeds `enough` or rounding stops the progress.
 
     Springs are monotone but have kinks, at the design position and at the stops, where library solvers that trust their
     model of the function stall; the static load of an axle lies exactly on one whenever the payload leaves it alone.
     """
     here = residual(position)
     for _ in range(100):
+        if np.max(np.abs(here)) <= enough:
+            return position
         slope = np.column_stack([(residual(position + h) - here) / 1e-7 for h in 1e-7 * np.eye(len(position))])
         if not np.isfinite(slope).all():
             return position

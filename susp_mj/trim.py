@@ -81,7 +81,7 @@ def _solved(plant: Plant, blocks: Blocks, speed: float) -> tuple[mujoco.MjData, 
         rest_states(model, data, own)
         return unknowns.left(data)
 
-    values = solve(residual, unknowns.start())
+    values = solve(residual, unknowns.start(), SETTLED / 1e4)
     left = residual(values)
     mujoco.mj_forward(model, data)
     return data, float(np.max(np.abs(left)))
@@ -110,7 +110,6 @@ class _Unknowns:
             for k in range(int(model.actuator_actnum[i]))
             if names[int(i)] != "driver" and self.driving
         ]
-        self.rates = [address for address, name, _ in self.states if name != "speed_target"]
         self.free = np.setdiff1d(np.arange(model.nv), [] if self.driving else self.spins)
         head = dict(zip(HEAD, model.numeric_data[: len(HEAD)], strict=True))
         self.place = np.array([head[f"design_{axis}"] for axis in "xyz"])
@@ -118,10 +117,13 @@ class _Unknowns:
         self.spin = speed / radius
         self.gear, self.engine = _cruising(head, self.spin)
 
-    def scales(self) -> np.ndarray:
-        """Size of each unknown."""
-        states = [_state_scale(name, k) for _, name, k in self.states]
-        return np.array([*[1.0] * 4, *[1.0] * 6, *([_SPEEDS] * 4 if self.driving else [1.0, 1.0]), *states, *([1.0] if self.driving else [])])
+        state_scales = [_state_scale(name, k) for _, name, k in self.states]
+        spins = [_SPEEDS] * 4 if self.driving else [1.0, 1.0]
+        self.scales = np.array([*[1.0] * 10, *spins, *state_scales, *([1.0] if self.driving else [])])
+        self.addresses = [address for address, _, _ in self.states]
+        kept = [i for i, (_, name, _) in enumerate(self.states) if name != "speed_target"]
+        self.rates = [self.addresses[i] for i in kept]
+        self.rate_scales = np.array([state_scales[i] for i in kept])
 
     def start(self) -> np.ndarray:
         """First guess: level, wheels rolling."""
@@ -135,7 +137,7 @@ class _Unknowns:
 
     def enter(self, data: mujoco.MjData, values: np.ndarray) -> None:
         """Put the unknowns into the data."""
-        v = values * self.scales()
+        v = values * self.scales
         data.qpos[:], data.qvel[:] = 0.0, 0.0
         data.qpos[:3] = self.place + [0.0, 0.0, v[0]]
         roll, pitch = v[1], v[2]
@@ -152,14 +154,11 @@ class _Unknowns:
         mujoco.mju_euler2Quat(data.qpos[3:7], [roll, pitch, yaw], "XYZ")
         data.qpos[self.travels] = v[4:8]
         data.qpos[self.steers] = v[8:10]
-        for i, (address, _, _) in enumerate(self.states):
-            data.act[address] = v[14 + i]
+        data.act[self.addresses] = v[14 : 14 + len(self.addresses)]
 
     def left(self, data: mujoco.MjData) -> np.ndarray:
         """Accelerations and rates that remain."""
-        states = dict.fromkeys(self.rates)
-        scale = [_state_scale(name, k) for address, name, k in self.states if address in states]
-        return np.concatenate([data.qacc[self.free], data.act_dot[self.rates] / np.array(scale) if self.rates else []])
+        return np.concatenate([data.qacc[self.free], data.act_dot[self.rates] / self.rate_scales])
 
 
 def _cruising(head: dict[str, float], spin: float) -> tuple[float, float]:

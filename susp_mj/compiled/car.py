@@ -50,6 +50,9 @@ SLOW = 2.5
 """Below this rolling speed [m/s] the slips' rates add to the forces, a damping without which a standing car would sway for ever."""
 SLOW_SLIP = 0.07
 """Slip per sliding speed [s/m] that is added at standstill: 0.02 s over a relaxation length of 0.3 m."""
+HELD_SLIP, HELD_TIME = 0.08, 0.05
+"""Coming to rest, a tyre that slid is wound up as far as its friction carries and no further: slips beyond the first fade within the second
+[s]. As a spring of the relaxation length a slip of 1 would throw the car back by half a metre."""
 SMALLEST_RELAXATION = 0.05
 BUSHING_TIME = 0.005
 """Time constant [s] of the elastic suspension's answer to forces."""
@@ -387,6 +390,10 @@ def contact(head, wheel, base, model, data, signals, road, r, origin, velocity, 
         sliding = rolling - spin * rolling_radius
         signals[KAPPA_RATE] = slip_rate(kappa, -sliding, rolling, signals[SIGMA_X], MOST_KAPPA)
         signals[TAN_RATE] = slip_rate(tangent, lateral, rolling, signals[SIGMA_Y], MOST_TAN_ALPHA)
+        if abs(rolling) < SLOW and abs(sliding) < SLOW:
+            settling = 0.5 * (1.0 + math.cos(math.pi * rolling / SLOW)) / HELD_TIME
+            signals[KAPPA_RATE] -= settling * (kappa - min(max(kappa, -HELD_SLIP), HELD_SLIP))
+            signals[TAN_RATE] -= settling * (tangent - min(max(tangent, -HELD_SLIP), HELD_SLIP))
         torque, signals[BRAKE_RATE] = brake_torque(wheel[BRAKE_TORQUE], pedal, bristle, spin)
     else:
         for i in range(8):

@@ -68,8 +68,7 @@ def deviation(block, x, y):
     radius = block[3]
     if radius != 0.0:
         inside = abs(radius) - math.hypot(x, y - radius)
-        around = inside if radius > 0.0 else -inside
-        return y if x <= 0.0 and abs(y) < abs(around) else around  # behind the origin: the way in, or the end of a round
+        return inside if radius > 0.0 else -inside
     return y - _path_at(block, x)
 
 

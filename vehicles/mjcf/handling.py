@@ -34,7 +34,7 @@ _RIG_FORCES = {"rig_longitudinal": "longitudinal_force", "rig_lateral": "lateral
 _RIG_FREQUENCY = 300.0  # rad/s of the body on its servo: far above every suspension, resolved by a step of 1 ms
 _CONTROL_GAIN, _CONTROL_INTEGRAL = 1.5, 0.5  # 1/s, 1/s²: force of the speed controller per car mass and speed error
 _STALL_SPEED = 220.0  # rad/s at which the converter holds the engine's largest torque with the car at rest
-_IDLE_GAIN = 2.0  # N m s/rad of the idle governor
+_IDLE_GAIN = 10.0  # N m s/rad of the idle governor
 _STEER_ROWS = 17
 _WHEEL_MASS_SHARE = 0.5
 _PLANE = 1.0
@@ -211,7 +211,7 @@ def _outputs(builder: ModelBuilder, wheels: Sequence[_Wheel], rig: str | None) -
     """Channels that the compiled car writes."""
     for signal in CAR_SIGNALS:
         drives = rig is None or signal == "steering_wheel_angle"
-        if signal in QUANTITIES and signal != "speed" and drives and signal != "path_deviation":
+        if signal in QUANTITIES and signal != "speed" and drives:
             builder.output(signal, "", ("signal", signal, 1.0))
     for wheel in wheels:
         for signal in WHEEL_SIGNALS:

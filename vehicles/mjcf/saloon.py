@@ -46,13 +46,24 @@ class Saloon:
         """Rearmost point [m]."""
         return -self.wheelbase - 1.06
 
-    def x(self, share: float, offset: float = 0.0) -> float:
-        """Place between the front axle (0) and the rear axle (1), and so much further forward [m]."""
-        return -share * self.wheelbase + offset
+    def x(self, share: float) -> float:
+        """Place between the front axle (0) and the rear axle (1) [m]."""
+        return -share * self.wheelbase
+
+    def behind(self, distance: float) -> float:
+        """Place behind the front axle by a distance [m], which is for a wheelbase of 3 m and grows with it."""
+        return -distance * self.wheelbase / 3.0
+
+    def before(self, distance: float) -> float:
+        """Place before the rear axle by a distance [m], which is for a wheelbase of 3 m and grows with it."""
+        return (distance / 3.0 - 1.0) * self.wheelbase
 
 
 def saloon(shape: Saloon) -> dict[str, Surface]:
-    """Surfaces of a saloon by material: ``paint``, ``glass``, ``trim``, ``gloss``, ``chrome``, ``grille``, ``lamp``, ``tail``, ``gap``, ``plate``, ``liner``."""
+    """Surfaces of a saloon by material.
+
+    ``paint``, ``glass``, ``trim``, ``gloss``, ``chrome``, ``grille``, ``lamp``, ``lamp_glass``, ``tail``, ``gap``, ``plate``, ``liner``.
+    """
     shell = _shell(shape)
     parts: dict[str, list[Surface]] = {}
 
@@ -69,7 +80,7 @@ def saloon(shape: Saloon) -> dict[str, Surface]:
         _, shell = _split(shell, _arch(shape, shell, axle))
         take("gloss", lambda s, axle=axle: _arch(shape, s, axle) + 0.022)
     take("trim", lambda s: np.minimum(0.265 - s.z, 0.5 - np.abs(s.line - 2.0) * 0.1))
-    for material, chosen, frame in _openings(shape):
+    for material, chosen, frame in [*_windows(shape), *_faces(shape)]:
         take(material, chosen, frame)
     for away, within in _joints(shape):
         gap, shell = _band(shell, away, within)
@@ -152,32 +163,20 @@ def _shell(shape: Saloon) -> _Shell:
 
 def _lines(shape: Saloon, x: np.ndarray) -> np.ndarray:
     """(n, k, 2) points (y, z) that the section at each x is drawn around, from the underside to the roof."""
-    at, rear, wide = shape.x, -shape.wheelbase, shape.half_width
-    top = _curve(
-        [
-            (shape.tail, 0.95), (rear - 0.80, 1.005), (rear - 0.42, 1.035), (rear - 0.30, 1.05), (rear + 0.02, 1.185),
-            (rear + 0.36, 1.33), (at(0.77), 1.405), (at(0.66), 1.445), (at(0.55), 1.455), (at(0.46), 1.435), (-1.27, 1.385),
-            (-1.08, 1.30), (-0.80, 1.135), (-0.50, 0.965), (-0.36, 0.945), (0.0, 0.90), (0.40, 0.83), (0.64, 0.765), (shape.nose, 0.69),
-        ],
-        x, 0.035,
-    )  # fmt: skip
-    belt = _curve(
-        [(shape.tail, 0.93), (rear - 0.5, 0.965), (rear, 0.95), (at(0.6), 0.925), (-0.7, 0.90), (0.0, 0.845), (0.5, 0.745), (shape.nose, 0.64)],
-        x, 0.08,
-    )  # fmt: skip
+    at, behind, before, rear, wide = shape.x, shape.behind, shape.before, -shape.wheelbase, shape.half_width
+    boot = [(shape.tail, 0.95), (rear - 0.80, 1.005), (rear - 0.42, 1.035), (rear - 0.30, 1.05)]
+    roof = [(before(0.02), 1.185), (before(0.36), 1.33), (at(0.77), 1.405), (at(0.66), 1.445), (at(0.55), 1.455), (at(0.46), 1.435)]
+    screen = [(behind(1.27), 1.385), (behind(1.08), 1.30), (behind(0.80), 1.135), (behind(0.50), 0.965), (behind(0.36), 0.945)]
+    bonnet = [(0.0, 0.90), (0.40, 0.83), (0.64, 0.765), (shape.nose, 0.69)]
+    top = _curve([*boot, *roof, *screen, *bonnet], x, 0.035)
+    waist = [(shape.tail, 0.93), (rear - 0.5, 0.965), (rear, 0.95), (at(0.6), 0.925), (behind(0.7), 0.90), (0.0, 0.845)]
+    belt = _curve([*waist, (0.5, 0.745), (shape.nose, 0.64)], x, 0.08)
     low = _curve([(shape.tail, 0.30), (rear - 0.6, 0.21), (rear, 0.175), (0.0, 0.175), (0.5, 0.19), (shape.nose, 0.24)], x)
-    half = _curve(
-        [
-            (shape.tail, 0.82 * wide), (rear - 0.7, 0.92 * wide), (rear - 0.2, 0.985 * wide), (rear + 0.5, wide), (-0.8, wide),
-            (0.0, 0.985 * wide), (0.45, 0.92 * wide), (shape.nose, 0.78 * wide),
-        ],
-        x, 0.08,
-    )  # fmt: skip
-    cabin = _curve(
-        [(rear - 0.45, 0.0), (rear - 0.32, 0.02), (rear + 0.02, 0.45), (rear + 0.36, 0.85), (at(0.72), 1.0), (-1.40, 1.0), (-1.08, 0.80), (-0.8, 0.42), (-0.52, 0.03), (-0.40, 0.0)],
-        x, 0.03,
-    )  # fmt: skip
-    cabin = np.where((x < -0.36) & (x > rear - 0.5), cabin, 0.0)
+    slim = [(shape.tail, 0.82), (rear - 0.7, 0.92), (rear - 0.2, 0.985), (before(0.5), 1.0), (behind(0.8), 1.0), (0.0, 0.985)]
+    half = wide * _curve([*slim, (0.45, 0.92), (shape.nose, 0.78)], x, 0.08)
+    glass = [(before(0.02), 0.45), (before(0.36), 0.85), (at(0.72), 1.0), (behind(1.40), 1.0), (behind(1.08), 0.80), (behind(0.8), 0.42)]
+    cabin = _curve([(rear - 0.45, 0.0), (rear - 0.32, 0.02), *glass, (behind(0.52), 0.03), (behind(0.40), 0.0)], x, 0.03)
+    cabin = np.where((x < behind(0.36)) & (x > rear - 0.5), cabin, 0.0)
     rail_y = half * 0.86 + cabin * (0.655 * wide - half * 0.86)
     rail_z = top - 0.062 * cabin - (1 - cabin) * 0.03
 
@@ -186,15 +185,23 @@ def _lines(shape: Saloon, x: np.ndarray) -> np.ndarray:
 
     deck = belt + 0.55 * (top - belt)
     rows = [
-        (0 * x, low), (0.6 * half, low), (0.90 * half, low + 0.008), (0.962 * half, low + 0.07), (0.978 * half, low + 0.20),
-        (1.0 * half, 0.48 * (low + belt)), (1.0 * half, belt - 0.15), (0.985 * half, belt - 0.035), (mixed(0.945 * half, 0.955 * half), belt),
+        (0 * x, low),
+        (0.6 * half, low),
+        (0.90 * half, low + 0.008),
+        (0.962 * half, low + 0.07),
+        (0.978 * half, low + 0.20),
+        (1.0 * half, 0.48 * (low + belt)),
+        (1.0 * half, belt - 0.15),
+        (0.985 * half, belt - 0.035),
+        (mixed(0.945 * half, 0.955 * half), belt),
         (mixed(0.92 * half, 0.925 * half), mixed(belt + 0.25 * (deck - belt), belt + 0.03)),
         (mixed(0.86 * half, 0.5 * (0.925 * half + rail_y)), mixed(deck, 0.5 * (belt + 0.03 + rail_z))),
         (mixed(0.78 * half, rail_y + 0.018), mixed(belt + 0.78 * (top - belt), rail_z - 0.035)),
         (mixed(0.66 * half, rail_y - 0.035), mixed(belt + 0.89 * (top - belt), rail_z + 0.022)),
         (mixed(0.45 * half, 0.70 * rail_y), mixed(belt + 0.97 * (top - belt), rail_z + 0.70 * (top - rail_z))),
-        (mixed(0.20 * half, 0.34 * rail_y), top - 0.002), (0 * x, top),
-    ]  # fmt: skip
+        (mixed(0.20 * half, 0.34 * rail_y), top - 0.002),
+        (0 * x, top),
+    ]
     return np.stack([np.stack(np.broadcast_arrays(y, z), axis=-1) for y, z in rows], axis=1)
 
 
@@ -226,28 +233,39 @@ _Field = Callable[[_Shell], np.ndarray]
 _Opening = tuple[str, _Field, tuple[str, float] | None]
 
 
-def _openings(shape: Saloon) -> list[_Opening]:
-    """Windows, lamps and grille: material, where, and what frames it."""
-    rear, pillar = -shape.wheelbase, shape.x(0.535)
-    wide = shape.half_width
+def _windows(shape: Saloon) -> list[_Opening]:
+    """Windows and the pillars between them: material, where, and what frames it."""
+    before, behind, pillar = shape.before, shape.behind, shape.x(0.535)
 
     def windscreen(s: _Shell) -> np.ndarray:
         bow = 0.10 * (s.y / 0.6) ** 2
-        return _rounded(0.05, 0.10 * (s.line - _TOP), -0.50 - bow - s.x, s.x + 1.26 + 0.5 * bow, s.z - 0.9)
+        return _rounded(0.05, 0.10 * (s.line - _TOP), behind(0.50) - bow - s.x, s.x - behind(1.26) + 0.5 * bow, s.z - 0.9)
 
     def backlight(s: _Shell) -> np.ndarray:
         bow = 0.06 * (s.y / 0.6) ** 2
-        return _rounded(0.05, 0.10 * (s.line - _TOP), rear + 0.40 - bow - s.x, s.x - rear + 0.28 - bow, s.z - 0.9)
+        return _rounded(0.05, 0.10 * (s.line - _TOP), before(0.40) - bow - s.x, s.x + shape.wheelbase + 0.28 - bow, s.z - 0.9)
 
     def side_window(s: _Shell) -> np.ndarray:
-        slanted_front = (-0.60 - s.x) * 0.54 - (s.z - 0.93) * 0.84 + 0.03
-        slanted_rear = (s.x - rear + 0.02) * 0.56 - (s.z - 0.95) * 0.83 - 0.10
-        return _rounded(0.03, 0.07 * (s.line - _SIDE), 0.07 * (_RAIL - s.line), slanted_front, slanted_rear, s.y - 0.3)
+        ahead = (behind(0.60) - s.x) * 0.54 - (s.z - 0.93) * 0.84 + 0.03
+        back = (s.x - before(-0.02)) * 0.56 - (s.z - 0.95) * 0.83 - 0.10
+        return _rounded(0.03, 0.07 * (s.line - _SIDE), 0.07 * (_RAIL - s.line), ahead, back, s.y - 0.3)
 
-    def doors(s: _Shell) -> np.ndarray:
+    def pillars(s: _Shell) -> np.ndarray:
         slant = 0.10 * (s.z - 1.15)
-        between = np.maximum(0.045 - np.abs(s.x - pillar + slant), 0.016 - np.abs(s.x - rear - 0.42 + slant))
-        return np.minimum(between, side_window(s) + 0.003)
+        either = np.maximum(0.045 - np.abs(s.x - pillar + slant), 0.016 - np.abs(s.x - before(0.42) + slant))
+        return np.minimum(either, side_window(s) + 0.003)
+
+    return [
+        ("gloss", pillars, None),
+        ("glass", side_window, ("chrome", 0.012)),
+        ("glass", windscreen, ("gloss", 0.022)),
+        ("glass", backlight, ("gloss", 0.022)),
+    ]
+
+
+def _faces(shape: Saloon) -> list[_Opening]:
+    """Lamps, grille and bumpers: material, where, and what frames it."""
+    rear, wide = -shape.wheelbase, shape.half_width
 
     def headlamp(s: _Shell) -> np.ndarray:
         up = 0.10 * (s.y - 0.45 * wide)
@@ -270,10 +288,6 @@ def _openings(shape: Saloon) -> list[_Opening]:
         return _rounded(0.05, 0.42 - s.z, rear - 0.55 - s.x, 0.75 * wide - s.y)
 
     return [
-        ("gloss", doors, None),
-        ("glass", side_window, ("chrome", 0.012)),
-        ("glass", windscreen, ("gloss", 0.022)),
-        ("glass", backlight, ("gloss", 0.022)),
         ("lamp", bulb, None),
         ("lamp_glass", headlamp, ("gloss", 0.008)),
         ("grille", grille, ("chrome", 0.018)),
@@ -296,12 +310,12 @@ def _joints(shape: Saloon) -> list[tuple[_Field, _Field]]:
 
     edge = rear + float(np.sqrt((shape.arch + 0.05) ** 2 - (split - high) ** 2)) if shape.arch + 0.05 > split - high else rear
     return [
-        (lambda s: s.x + 0.62 - 0.12 * (s.z - 0.6), side),
+        (lambda s: s.x - shape.behind(0.62) - 0.12 * (s.z - 0.6), side),
         (lambda s: s.x - pillar, side),
         (lambda s: s.x - edge - 0.30 * (s.z - split), lambda s: np.minimum(side(s), s.z - split)),
         (lambda s: np.hypot(s.x - rear, s.z - high) - shape.arch - 0.05, lambda s: np.minimum.reduce([side(s), s.x - rear, split - s.z])),
-        (lambda s: s.z - 0.30, lambda s: np.minimum.reduce([-0.58 - s.x, s.x - rear - shape.arch - 0.05, 6.0 - s.line])),
-        (lambda s: 0.07 * (s.line - 10.7), lambda s: np.minimum(s.x + 0.52, 0.52 - s.x)),
+        (lambda s: s.z - 0.30, lambda s: np.minimum.reduce([shape.behind(0.58) - s.x, s.x - rear - shape.arch - 0.05, 6.0 - s.line])),
+        (lambda s: 0.07 * (s.line - 10.7), lambda s: np.minimum(s.x - shape.behind(0.52), 0.52 - s.x)),
         (lambda s: s.x - 0.54 + 0.22 * (s.y / 0.8) ** 2, lambda s: np.minimum(lids(s), s.x)),
         (lambda s: 0.07 * (s.line - 10.7), lambda s: np.minimum(rear - 0.42 - s.x, s.x - rear + 0.93)),
     ]
@@ -331,8 +345,8 @@ def _extras(shape: Saloon) -> list[tuple[str, Surface]]:
     rear, wide = -shape.wheelbase, shape.half_width
     extras = []
     for side in (1.0, -1.0):
-        extras.append(("paint", _blob((0.075, 0.105, 0.06), (-0.86, side * (wide + 0.06), 1.0))))
-        extras.append(("gloss", _blob((0.035, 0.07, 0.018), (-0.84, side * (wide - 0.02), 0.955))))
+        extras.append(("paint", _blob((0.075, 0.105, 0.06), (shape.behind(0.86), side * (wide + 0.06), 1.0))))
+        extras.append(("gloss", _blob((0.035, 0.07, 0.018), (shape.behind(0.84), side * (wide - 0.02), 0.955))))
         for share in (0.44, 0.80):
             extras.append(("chrome", _blob((0.09, 0.014, 0.014), (shape.x(share), side * (wide - 0.005), 0.80))))
         for axle in (0.0, rear):
@@ -362,8 +376,9 @@ def _wheelhouse(shape: Saloon, axle: float, side: float) -> Surface:
     """Inside of a wheel arch: half a drum, open downwards and outwards, seen from within."""
     radius, inner, outer = shape.arch + 0.02, 0.46 * shape.half_width, 0.985 * shape.half_width
     turn = np.linspace(-0.35, np.pi + 0.35, 33)
-    rim = np.column_stack([axle + radius * np.cos(turn), np.zeros(33), shape.wheel_radius + radius * np.sin(turn)])
-    drum = np.concatenate([rim + [0, side * inner, 0], rim + [0, side * outer, 0], [[axle, side * inner, shape.wheel_radius]]])
+    ring = np.column_stack([axle + radius * np.cos(turn), np.zeros(33), shape.wheel_radius + radius * np.sin(turn)])
+    across, hub = np.array([0.0, side, 0.0]), np.array([[axle, side * inner, shape.wheel_radius]])
+    drum = np.concatenate([ring + inner * across, ring + outer * across, hub])
     one = np.arange(32)
     walls = np.concatenate([np.column_stack([one, one + 1, one + 34]), np.column_stack([one, one + 34, one + 33])])
     faces = np.concatenate([walls, np.column_stack([one + 1, one, np.full(32, 66)])])
