@@ -178,7 +178,17 @@ def write_mjcf(spec: mujoco.MjSpec, meaning: Meaning, path: str | Path) -> Path:
     plant = Plant.from_spec(spec, meaning)
     text = _full_precision_xml(spec)
     again = mujoco.MjModel.from_xml_string(text)
-    for name in ("actuator_user", "body_mass", "body_inertia", "body_pos", "body_ipos", "tendon_range", "wrap_prm", "tendon_actfrcrange", "numeric_data"):
+    for name in (
+        "actuator_user",
+        "body_mass",
+        "body_inertia",
+        "body_pos",
+        "body_ipos",
+        "tendon_range",
+        "wrap_prm",
+        "tendon_actfrcrange",
+        "numeric_data",
+    ):
         if not np.array_equal(getattr(plant.model, name), getattr(again, name)):
             raise SimulationError(f"MuJoCo's writer lost digits of {name}; this MuJoCo is not supported")
     return write_text(path, text)

@@ -34,6 +34,7 @@ STABLE = 2.785
 """Runge-Kutta 4 is stable on the negative real axis up to step / time constant = 2.785."""
 
 _FIELDS = ("qpos", "qvel", "qacc", "actuator_force")
+_TANGENTS = [i for i, name in enumerate(SIGNALS) if name.endswith("slip_angle")]
 _CHUNK = 2000
 
 Progress = Callable[[float], None]
@@ -212,7 +213,8 @@ def _as_run(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, records: np.nd
     columns |= {"input": inputs[..., 0], "input_rate": inputs[..., 1]}
     channels: dict[str, Channel] = {}
     if plant.contacts:
-        columns["signal"] = records[:, -len(SIGNALS) :]
+        columns["signal"] = records[:, -len(SIGNALS) :].copy()
+        columns["signal"][:, _TANGENTS] = np.arctan(columns["signal"][:, _TANGENTS])
         motion = free_motion(columns["qpos"], columns["qvel"], columns["qacc"], meaning.facts)
         channels |= {quantity: described(quantity, values) for quantity, values in motion.items()}
     for output, values in plant.outputs(columns):

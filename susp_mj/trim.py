@@ -139,7 +139,8 @@ class _Unknowns:
         """Put the unknowns into the data."""
         v = values * self.scales
         data.qpos[:], data.qvel[:] = 0.0, 0.0
-        data.qpos[:3] = self.place + [0.0, 0.0, v[0]]
+        data.qpos[:3] = self.place
+        data.qpos[2] += v[0]
         roll, pitch = v[1], v[2]
         if self.driving:
             data.qvel[:2] = self.speed, v[3]
@@ -175,7 +176,7 @@ def signals_of(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
 
 
 def remembered(plant: Plant, data: mujoco.MjData) -> dict[int, float]:
-    """What the car carries from the trim into the run, by its place among the signals: steering angle and gear; nothing for other plants."""
+    """What the car carries from the trim into the run, by its place among the signals: steering angle and gear."""
     if not plant.contacts:
         return {}
     signals = signals_of(plant.model, data)

@@ -12,35 +12,38 @@ import math
 from numba import types
 
 from ..elements.car import CAR_MARK, CAR_SIGNALS, CRUISE_ABOVE, CRUISE_DOWN, HEAD, SIGNALS, WHEEL, WHEEL_SIGNALS, WHEEL_STATES
-from ..elements.law import LAW_TABLE_SIZE, USERDATA_HEADER
+from ..elements.law import USERDATA_HEADER
 from .laws import contact_call
 from .memory import doubles, ints, plain
 from .surroundings import deviation, road_at, wanted_angle
 
 # fmt: off
 (
-    MARK, LENGTH, FREEDOMS, RIG, STEERING_WHEEL, DRIVER, SPEED_TARGET, SPEED_CONTROL, ENGINE, BRAKE, WIND_X, WIND_Y, HEAVE_TARGET, ROLL_TARGET,
-    PITCH_TARGET, STEERING_RATIO, STEERING_LIMIT, WHEELBASE, REAR_AXLE_X, GROUND_Z, CONTROL_GAIN, CONTROL_INTEGRAL, AIR_PRESSURE, DRAG,
-    LIFT_FRONT, LIFT_REAR, SIDE_FORCE, YAW_MOMENT, AIR_X, DRIVEN_REAR, ENGINE_INERTIA, IDLE_SPEED, IDLE_GAIN, IDLE_TORQUE, COUPLING,
-    CONVERTER, COUPLING_LIMIT, FINAL_DRIVE, EFFICIENCY, SHIFT_UP, SHIFT_DOWN, SHIFT_TIME, GEARS, GEAR_1,
+    MARK, LENGTH, FREEDOMS, RIG, STEERING_WHEEL, DRIVER, SPEED_TARGET, SPEED_CONTROL, ENGINE, BRAKE, WIND_X, WIND_Y, HEAVE_TARGET,
+    ROLL_TARGET, PITCH_TARGET, STEERING_RATIO, STEERING_LIMIT, WHEELBASE, REAR_AXLE_X, GROUND_Z, CONTROL_GAIN, CONTROL_INTEGRAL,
+    AIR_PRESSURE, DRAG, LIFT_FRONT, LIFT_REAR, SIDE_FORCE, YAW_MOMENT, AIR_X, DRIVEN_REAR, ENGINE_INERTIA, IDLE_SPEED, IDLE_GAIN,
+    IDLE_TORQUE, COUPLING, CONVERTER, COUPLING_LIMIT, FINAL_DRIVE, EFFICIENCY, SHIFT_UP, SHIFT_DOWN, SHIFT_TIME, GEARS, GEAR_1,
 ) = range(44)
-FULL_TORQUE, DRAG_TORQUE, DESIGN_X, DESIGN_Y, DESIGN_Z, RIG_STIFFNESS, RIG_DAMPING, RIG_RATE_X, RIG_RATE_Y, RIG_RATE_Z, RIG_DAMPING_X, RIG_DAMPING_Y, RIG_DAMPING_Z = (
-    HEAD.index(name) for name in HEAD[HEAD.index("full_torque"):]
-)
 (
-    SIDE, REAR, X, Y, Z, TRAVEL_FREEDOM, STEER_FREEDOM, SPIN_FREEDOM, TYRE, STEERING, ACKERMANN, TRAIL, SCRUB,
-    DRIVE_SHARE, BRAKE_TORQUE, TYRE_LAW, TYRE_PARAMETERS, RADIUS, STIFFNESS, DAMPING, DESIGN_HEIGHT, LATERAL, LONGITUDINAL, TOE, CAMBER, SWING,
-    TOE_LATERAL, CAMBER_LATERAL, TOE_LONGITUDINAL, TOE_ALIGNING, RIG_LONGITUDINAL, RIG_LATERAL, RIG_ALIGNING,
+    FULL_TORQUE, DRAG_TORQUE, DESIGN_X, DESIGN_Y, DESIGN_Z, RIG_STIFFNESS, RIG_DAMPING, RIG_RATE_X, RIG_RATE_Y, RIG_RATE_Z,
+    RIG_DAMPING_X, RIG_DAMPING_Y, RIG_DAMPING_Z,
+) = (HEAD.index(name) for name in HEAD[HEAD.index("full_torque") :])
+(
+    SIDE, REAR, X, Y, Z, TRAVEL_FREEDOM, STEER_FREEDOM, SPIN_FREEDOM, TYRE, STEERING, ACKERMANN, TRAIL, SCRUB, DRIVE_SHARE,
+    BRAKE_TORQUE, TYRE_LAW, TYRE_PARAMETERS, RADIUS, STIFFNESS, DAMPING, DESIGN_HEIGHT, PATH, ANGLES, SWING, ELASTIC_LATERAL,
+    ELASTIC_LONGITUDINAL, ELASTIC_ALIGNING, RIG_LONGITUDINAL, RIG_LATERAL, RIG_ALIGNING,
 ) = range(len(WHEEL))
 (
-    GEAR, SHIFT_BEGAN, TRIM_ANGLE, TRIMMING, DRIVER_RATE, CONTROL_RATE, ENGINE_RATE, WHEEL_ANGLE, ACCELERATOR, PEDAL, ENGINE_SPEED, ENGINE_TORQUE,
-    PATH_DEVIATION, CONTROL_FORCE, SPEED,
+    GEAR, SHIFT_BEGAN, TRIM_ANGLE, TRIMMING, DRIVER_RATE, CONTROL_RATE, ENGINE_RATE, WHEEL_ANGLE, ACCELERATOR, PEDAL, ENGINE_SPEED,
+    ENGINE_TORQUE, PATH_DEVIATION, CONTROL_FORCE, SPEED,
 ) = range(len(CAR_SIGNALS))
 (
-    FX, FY, MX, MY, MZ, SIGMA_X, SIGMA_Y, ROLLING_RADIUS, LOAD, SLIP_RATIO, SLIP_ANGLE, ROAD_CAMBER, STEER_ANGLE, INCLINATION, WHEEL_SPEED,
-    DRIVE_TORQUE, BRAKING_TORQUE, ROAD_HEIGHT, WHEEL_HEIGHT, CONTACT_X, CONTACT_Y, FRICTION, KAPPA_RATE, TAN_RATE, BRAKE_RATE, ELASTIC_X_RATE, ELASTIC_Y_RATE, ELASTIC_MOMENT_RATE,
+    FX, FY, MX, MY, MZ, SIGMA_X, SIGMA_Y, ROLLING_RADIUS, LOAD, SLIP_RATIO, SLIP_ANGLE, ROAD_CAMBER, STEER_ANGLE, INCLINATION,
+    WHEEL_SPEED, DRIVE_TORQUE, BRAKING_TORQUE, ROAD_HEIGHT, WHEEL_HEIGHT, CONTACT_X, CONTACT_Y, FRICTION, KAPPA_RATE, TAN_RATE,
+    BRAKE_RATE, ELASTIC_X_RATE, ELASTIC_Y_RATE, ELASTIC_MOMENT_RATE,
 ) = range(len(WHEEL_SIGNALS))
 # fmt: on
+STATE_KAPPA, STATE_TAN, STATE_BRAKE, STATE_FX, STATE_FY, STATE_MZ = range(WHEEL_STATES)
 _HEAD_SIZE, _WHEEL_SIZE, _CAR_SIGNALS, _WHEEL_SIGNALS = len(HEAD), len(WHEEL), len(CAR_SIGNALS), len(WHEEL_SIGNALS)
 _SIGNALS = len(SIGNALS)
 
@@ -66,12 +69,20 @@ WIND_UP = 1.2
 
 
 @plain
+def combined(a, u, b, v, c, w):
+    """Sum of three vectors times numbers."""
+    return (a * u[0] + b * v[0] + c * w[0], a * u[1] + b * v[1] + c * w[1], a * u[2] + b * v[2] + c * w[2])
+
+
+@plain
 def cross(a, b):
+    """Vector product."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 @plain
 def dot(a, b):
+    """Scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
@@ -81,9 +92,21 @@ def sine_cosine(angle):
     if abs(angle) > 0.35:
         return math.sin(angle), math.cos(angle)
     s = angle * angle
-    sine = angle * (1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0 * (1.0 - s / 110.0 * (1.0 - s / 156.0))))))
-    cosine = 1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0 * (1.0 - s / 132.0 * (1.0 - s / 182.0))))))
+    sine = 1.0 - s / 42.0 * (1.0 - s / 72.0 * (1.0 - s / 110.0 * (1.0 - s / 156.0)))
+    cosine = 1.0 - s / 56.0 * (1.0 - s / 90.0 * (1.0 - s / 132.0 * (1.0 - s / 182.0)))
+    sine = angle * (1.0 - s / 6.0 * (1.0 - s / 20.0 * sine))
+    cosine = 1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * cosine))
     return sine, cosine
+
+
+@plain
+def arc_sine(x):
+    """Arc sine; for the small leans of wheels by its series."""
+    if abs(x) > 0.15:
+        return math.asin(min(max(x, -1.0), 1.0))
+    s = x * x
+    high = 35.0 / 1152.0 + s * (63.0 / 2816.0 + s * (231.0 / 13312.0))
+    return x * (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (5.0 / 112.0 + s * high))))
 
 
 @plain
@@ -107,45 +130,58 @@ def turned_back(r, v):
 
 
 @plain
-def looked_up(table, x):
-    """Value and slope of a one-dimensional table."""
-    spacing, last = table[1], int(table[2]) - 1
-    place = (x - table[0]) / spacing
-    if place <= 0.0:
-        return table[3] + table[4] * (x - table[0]), table[4]
-    if place >= last:
-        return table[3 + 2 * last] + table[4 + 2 * last] * (place - last) * spacing, table[4 + 2 * last]
-    i = int(place)
-    u = place - i
-    v0, m0, v1, m1 = table[3 + 2 * i], table[4 + 2 * i] * spacing, table[5 + 2 * i], table[6 + 2 * i] * spacing
+def cubic(v0, m0, v1, m1, u):
+    """Value and slope of the cubic from v0 to v1 with slopes m0 and m1 at a share u of the way; straight on beyond it."""
+    if u < 0.0:
+        return v0 + m0 * u, m0
+    if u > 1.0:
+        return v1 + m1 * (u - 1.0), m1
     rise = v1 - v0
     c, d = 3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise
-    return v0 + u * (m0 + u * (c + u * d)), (m0 + u * (2.0 * c + 3.0 * u * d)) / spacing
+    return v0 + u * (m0 + u * (c + u * d)), m0 + u * (2.0 * c + 3.0 * u * d)
 
 
 @plain
-def looked_up_twice(address, x, s):
-    """Value and slope over x of a table whose rows belong to even values of s; linear between the rows, held outside."""
+def looked_up(table, x):
+    """Value and slope of a table with one curve."""
+    place = (x - table[0]) * table[1]
+    i = min(max(int(place), 0), int(table[2]) - 2)
+    at = 3 + 2 * i
+    value, slope = cubic(table[at], table[at + 1], table[at + 2], table[at + 3], place - i)
+    return value, slope * table[1]
+
+
+@plain
+def both_looked_up(table, x):
+    """Values and slopes of a table with two curves."""
+    place = (x - table[0]) * table[1]
+    i = min(max(int(place), 0), int(table[2]) - 2)
+    at, u = 3 + 4 * i, place - i
+    first, first_slope = cubic(table[at], table[at + 1], table[at + 4], table[at + 5], u)
+    second, second_slope = cubic(table[at + 2], table[at + 3], table[at + 6], table[at + 7], u)
+    return first, first_slope * table[1], second, second_slope * table[1]
+
+
+@plain
+def both_between(address, x, s):
+    """As `both_looked_up`, of tables for even values of s; linear between them, held outside."""
     head = doubles(address)
     rows, stride = int(head[2]), int(head[3])
     first = address + types.uint64(32)
     if rows == 1:
-        return looked_up(doubles(first), x)
-    place = min(max((s - head[0]) / head[1], 0.0), rows - 1.0)
+        return both_looked_up(doubles(first), x)
+    place = min(max((s - head[0]) * head[1], 0.0), rows - 1.0)
     j = min(int(place), rows - 2)
     share = place - j
-    v0, m0 = looked_up(doubles(first + types.uint64(8 * stride * j)), x)
-    v1, m1 = looked_up(doubles(first + types.uint64(8 * stride * (j + 1))), x)
-    return v0 + share * (v1 - v0), m0 + share * (m1 - m0)
+    v, m, w, n = both_looked_up(doubles(first + types.uint64(8 * stride * j)), x)
+    v1, m1, w1, n1 = both_looked_up(doubles(first + types.uint64(8 * stride * (j + 1))), x)
+    return v + share * (v1 - v), m + share * (m1 - m), w + share * (w1 - w), n + share * (n1 - n)
 
 
 @plain
-def looked_up_if_any(base, place, x):
-    """Value of a table; 0 where there is none."""
-    if place == 0.0:
-        return 0.0
-    value, _ = looked_up(doubles(base + types.uint64(8 * int(place))), x)
-    return value
+def place_of(base, number):
+    """Address of what lies at a place in the block."""
+    return base + types.uint64(8 * int(number))
 
 
 @plain
@@ -227,8 +263,8 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
     gear = shifted_gear(head, signals, time, shaft_speed, weight > 0.0)
     ratio = head[GEAR_1 + gear - 1] * head[FINAL_DRIVE]
     input_speed = shaft_speed * head[GEAR_1 + gear - 1]
-    full, _ = looked_up(doubles(base + types.uint64(8 * int(head[FULL_TORQUE]))), engine_speed)
-    drag, _ = looked_up(doubles(base + types.uint64(8 * int(head[DRAG_TORQUE]))), engine_speed)
+    full, _ = looked_up(doubles(place_of(base, head[FULL_TORQUE])), engine_speed)
+    drag, _ = looked_up(doubles(place_of(base, head[DRAG_TORQUE])), engine_speed)
     pedal = demanded
     if trimming:
         target, weight, pedal = speed, 1.0, 0.0
@@ -288,144 +324,159 @@ def air(head, data, r, velocity):
 
 
 @plain
-def contact(head, wheel, base, model, data, signals, road, r, origin, velocity, spin_world, angle, angle_rate, drive, pedal):
-    """One wheel: its place and orientation, its slips, its forces and what they do to every freedom. Returns force and moment on the chassis."""
-    length, v, ctrl, userdata = doubles(data.actuator_length), doubles(data.qvel), doubles(data.ctrl), doubles(data.userdata)
-    side, tyre = wheel[SIDE], int(wheel[TYRE])
-    travel, travel_rate = length[tyre], v[int(wheel[TRAVEL_FREEDOM])]
-    state = doubles(data.act + types.uint64(8 * ints(model.actuator_actadr)[tyre]))
-    kappa, tangent, bristle, pulled, pushed, twisted = state[0], state[1], state[2], state[3], state[4], state[5]
+def steered(head, wheel, data, angle, angle_rate):
+    """Angle and rate of a wheel about its steering axis; what the rack gives it becomes the target of its spring."""
+    if wheel[STEER_FREEDOM] < 0.0:
+        return 0.0, 0.0
+    actuator = int(wheel[STEERING])
+    rack, rack_rate = angle / head[STEERING_RATIO], angle_rate / head[STEERING_RATIO]
+    bend = wheel[SIDE] * wheel[ACKERMANN]
+    doubles(data.ctrl)[actuator] = -rack - bend * rack * rack
+    doubles(data.userdata)[USERDATA_HEADER + actuator] = -rack_rate * (1.0 + 2.0 * bend * rack)
+    return doubles(data.actuator_length)[actuator], doubles(data.qvel)[int(wheel[STEER_FREEDOM])]
 
-    # steering: the rack's angle for this wheel becomes the target of its spring
-    steer, steer_rate = 0.0, 0.0
-    if wheel[STEER_FREEDOM] >= 0.0:
-        rack, rack_rate = angle / head[STEERING_RATIO], angle_rate / head[STEERING_RATIO]
-        target = rack + side * wheel[ACKERMANN] * rack * rack
-        actuator = int(wheel[STEERING])
-        ctrl[actuator] = -target
-        userdata[USERDATA_HEADER + actuator] = -rack_rate * (1.0 + 2.0 * side * wheel[ACKERMANN] * rack)
-        steer, steer_rate = length[actuator], v[int(wheel[STEER_FREEDOM])]
 
-    # look-up kinematics and compliance, as the left wheel sees them
-    out, out_slope = looked_up(doubles(base + types.uint64(8 * int(wheel[LATERAL]))), travel)
-    ahead, ahead_slope = looked_up(doubles(base + types.uint64(8 * int(wheel[LONGITUDINAL]))), travel)
-    toe, toe_slope = looked_up_twice(base + types.uint64(8 * int(wheel[TOE])), travel, side * steer)
-    camber, camber_slope = looked_up_twice(base + types.uint64(8 * int(wheel[CAMBER])), travel, side * steer)
+@plain
+def guided(wheel, base, state, travel, steer):
+    """Path of the contact patch and slopes, toe and camber with compliance and their slopes, as for the left wheel; slope of the swing."""
+    side = wheel[SIDE]
+    out, out_slope, ahead, ahead_slope = both_looked_up(doubles(place_of(base, wheel[PATH])), travel)
+    toe, toe_slope, camber, camber_slope = both_between(place_of(base, wheel[ANGLES]), travel, side * steer)
     swing_slope = 0.0
     if wheel[SWING] != 0.0:
-        _, swing_slope = looked_up(doubles(base + types.uint64(8 * int(wheel[SWING]))), travel)
-    inwards = -side * pushed
-    toe_elastic = (
-        looked_up_if_any(base, wheel[TOE_LATERAL], inwards)
-        + looked_up_if_any(base, wheel[TOE_LONGITUDINAL], pulled)
-        + looked_up_if_any(base, wheel[TOE_ALIGNING], -side * twisted)
-    )
-    camber_elastic = looked_up_if_any(base, wheel[CAMBER_LATERAL], inwards)
+        _, swing_slope = looked_up(doubles(place_of(base, wheel[SWING])), travel)
+    if wheel[ELASTIC_LATERAL] != 0.0:
+        more, _, lean, _ = both_looked_up(doubles(place_of(base, wheel[ELASTIC_LATERAL])), -side * state[STATE_FY])
+        toe, camber = toe + more, camber + lean
+    if wheel[ELASTIC_LONGITUDINAL] != 0.0:
+        more, _ = looked_up(doubles(place_of(base, wheel[ELASTIC_LONGITUDINAL])), state[STATE_FX])
+        toe += more
+    if wheel[ELASTIC_ALIGNING] != 0.0:
+        more, _ = looked_up(doubles(place_of(base, wheel[ELASTIC_ALIGNING])), -side * state[STATE_MZ])
+        toe += more
+    return out, out_slope, ahead, ahead_slope, toe, toe_slope, camber, camber_slope, swing_slope
 
-    # contact point in body axes: the patch turns about the steering axis and moves along the tables
+
+@plain
+def standing_on(wheel, road, r, hub, lift):
+    """Normal of the road below a hub, distance from hub to road along the body's z axis, height and friction of the road.
+
+    The road is the plane that touches it where an unloaded wheel would.
+    """
+    reach = wheel[RADIUS]
+    if road == types.uint64(0):
+        return (0.0, 0.0, 1.0), (hub[2] - lift) / r[8], lift, 1.0
+    x, y = -reach * r[2], -reach * r[5]
+    height, slope_x, slope_y, friction = road_at(doubles(road), hub[0] + x, hub[1] + y)
+    size = 1.0 / math.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
+    normal = (-slope_x * size, -slope_y * size, size)
+    distance = (hub[2] - height - lift + slope_x * x + slope_y * y) * size
+    return normal, distance / dot((r[2], r[5], r[8]), normal), height + lift, friction
+
+
+@plain
+def oriented(r, heading, lean, normal):
+    """Axis of a wheel, its forward and leftward directions in the road's plane, and its camber to the road."""
+    sine, cosine = sine_cosine(heading)
+    lean_sine, lean_cosine = sine_cosine(lean)
+    axis = turned(r, (-sine * lean_cosine, cosine * lean_cosine, lean_sine))
+    forward = cross(axis, normal)
+    size = 1.0 / math.sqrt(dot(forward, forward))
+    forward = (forward[0] * size, forward[1] * size, forward[2] * size)
+    return axis, forward, cross(normal, forward), arc_sine(dot(axis, normal))
+
+
+@plain
+def gripping(wheel, base, state, signals, camber, load, rolling, lateral, spin, friction, pressed, pedal):
+    """Forces of the tyre from its lagged slips, rates of its states, and the brake; returns brake torque and rolling radius."""
+    kappa, tangent = state[STATE_KAPPA], state[STATE_TAN]
+    slip, tangent_slip = kappa, tangent
+    if abs(rolling) < SLOW:
+        fade = 0.5 * (1.0 + math.cos(math.pi * rolling / SLOW)) * SLOW_SLIP
+        slip -= fade * (rolling - spin * (wheel[RADIUS] - pressed / 3.0))
+        tangent_slip += fade * lateral
+    parameters = doubles(place_of(base, wheel[TYRE_PARAMETERS]))
+    contact_call(int(wheel[TYRE_LAW]), slip, tangent_slip, camber, load, rolling, lateral, friction, parameters, signals)
+    sliding = rolling - spin * signals[ROLLING_RADIUS]
+    kappa_rate = slip_rate(kappa, -sliding, rolling, signals[SIGMA_X], MOST_KAPPA)
+    tangent_rate = slip_rate(tangent, lateral, rolling, signals[SIGMA_Y], MOST_TAN_ALPHA)
+    if abs(rolling) < SLOW and abs(sliding) < SLOW:
+        settling = 0.5 * (1.0 + math.cos(math.pi * rolling / SLOW)) / HELD_TIME
+        kappa_rate -= settling * (kappa - min(max(kappa, -HELD_SLIP), HELD_SLIP))
+        tangent_rate -= settling * (tangent - min(max(tangent, -HELD_SLIP), HELD_SLIP))
+    torque, signals[BRAKE_RATE] = brake_torque(wheel[BRAKE_TORQUE], pedal, state[STATE_BRAKE], spin)
+    signals[KAPPA_RATE], signals[TAN_RATE] = kappa_rate, tangent_rate
+    return torque, signals[ROLLING_RADIUS]
+
+
+@plain
+def pushed_by_rig(wheel, data, state, signals, spin):
+    """Forces of the rig in place of the tyre's; the slips fade, and the wheel is held. Returns torque and rolling radius."""
+    ctrl = doubles(data.ctrl)
+    for i in range(FX, ROLLING_RADIUS + 1):
+        signals[i] = 0.0
+    signals[FX], signals[FY], signals[MZ] = (
+        input_of(wheel, RIG_LONGITUDINAL, ctrl),
+        input_of(wheel, RIG_LATERAL, ctrl),
+        input_of(wheel, RIG_ALIGNING, ctrl),
+    )
+    signals[KAPPA_RATE], signals[TAN_RATE] = -100.0 * state[STATE_KAPPA], -100.0 * state[STATE_TAN]
+    signals[BRAKE_RATE] = -100.0 * state[STATE_BRAKE]
+    return 5.0 * spin, 0.0
+
+
+@plain
+def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, velocity, spin_world, angle, angle_rate, drive, pedal):  # noqa: PLR0915
+    """One wheel: where it is and how it stands, what the tyre does, and what that does to every freedom of the car.
+
+    Returns force [N] and moment [N m] about the chassis' origin, in inertial axes.
+    """
+    v, applied = doubles(data.qvel), doubles(data.qfrc_applied)
+    side, tyre = wheel[SIDE], int(wheel[TYRE])
+    state = doubles(data.act + types.uint64(8 * ints(model.actuator_actadr)[tyre]))
+    travel, travel_rate = doubles(data.actuator_length)[tyre], v[int(wheel[TRAVEL_FREEDOM])]
+    spin = v[int(wheel[SPIN_FREEDOM])]
+    steer, steer_rate = steered(head, wheel, data, angle, angle_rate)
+    out, out_slope, ahead, ahead_slope, toe, toe_slope, camber, camber_slope, swing_slope = guided(wheel, base, state, travel, steer)
+
+    # the contact patch in body axes: it turns about the steering axis and moves along its path
     sine, cosine = sine_cosine(steer)
     arm_x, arm_y = -wheel[TRAIL], side * wheel[SCRUB]
     lever_x, lever_y = cosine * arm_x - sine * arm_y, sine * arm_x + cosine * arm_y
-    place_x = wheel[X] - arm_x + lever_x + ahead
-    place_y = wheel[Y] - arm_y + lever_y + side * out
-    hub = turned(r, (place_x, place_y, wheel[Z] + travel))
+    patch_x, patch_y = lever_x - arm_x + ahead, lever_y - arm_y + side * out
+    place = (wheel[X] + patch_x, wheel[Y] + patch_y, wheel[Z] + travel)
+    hub = turned(r, place)
     hub = (hub[0] + origin[0], hub[1] + origin[1], hub[2] + origin[2])
-    up = (r[2], r[5], r[8])
-    lift, reach = ctrl[tyre], wheel[RADIUS]
-    height, slope_x, slope_y, friction = 0.0, 0.0, 0.0, 1.0
-    if road != types.uint64(0):
-        height, slope_x, slope_y, friction = road_at(doubles(road), hub[0] - reach * up[0], hub[1] - reach * up[1])
-    normal_size = 1.0 / math.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
-    normal = (-slope_x * normal_size, -slope_y * normal_size, normal_size)
-    # distance from hub to road along the body's z: the road is the plane through the point looked at
-    below = (hub[2] - height - lift - slope_x * reach * up[0] - slope_y * reach * up[1]) * normal_size
-    loaded = below / dot(up, normal)
-    arm = (place_x, place_y, wheel[Z] + travel - loaded)
-    lever = turned(r, arm)
-    point_velocity = cross(spin_world, lever)
-    moving = turned(
-        r,
-        (
-            ahead_slope * travel_rate - lever_y * steer_rate,
-            side * out_slope * travel_rate + lever_x * steer_rate,
-            travel_rate,
-        ),
-    )
-    point_velocity = (
-        velocity[0] + point_velocity[0] + moving[0],
-        velocity[1] + point_velocity[1] + moving[1],
-        velocity[2] + point_velocity[2] + moving[2],
-    )
+    normal, loaded, height, friction = standing_on(wheel, road, r, hub, doubles(data.ctrl)[tyre])
+    lever = turned(r, (place[0], place[1], place[2] - loaded))
+    own = (ahead_slope * travel_rate - lever_y * steer_rate, side * out_slope * travel_rate + lever_x * steer_rate, travel_rate)
+    own, swept = turned(r, own), cross(spin_world, lever)
+    moving = (velocity[0] + swept[0] + own[0], velocity[1] + swept[1] + own[1], velocity[2] + swept[2] + own[2])
 
-    # orientation of the wheel
-    heading = steer - side * (toe + toe_elastic)
-    lean = -side * (camber + camber_elastic)
-    sine, cosine = sine_cosine(heading)
-    lean_sine, lean_cosine = sine_cosine(lean)
-    axis = (-sine * lean_cosine, cosine * lean_cosine, lean_sine)
-    axis_world = turned(r, axis)
-    forward = cross(axis_world, normal)
-    size = 1.0 / math.sqrt(dot(forward, forward))
-    forward = (forward[0] * size, forward[1] * size, forward[2] * size)
-    leftward = cross(normal, forward)
-    road_camber = math.asin(min(max(dot(axis_world, normal), -1.0), 1.0))
-
-    # load, slips, forces
+    heading, lean = steer - side * toe, -side * camber
+    axis, forward, leftward, road_camber = oriented(r, heading, lean, normal)
     pressed = wheel[RADIUS] - loaded
-    press_rate = userdata[USERDATA_HEADER + tyre] * normal[2] - dot(point_velocity, normal)
+    press_rate = doubles(data.userdata)[USERDATA_HEADER + tyre] * normal[2] - dot(moving, normal)
     load = 0.0
     if pressed > 0.0:
         load = max(0.0, wheel[STIFFNESS] * pressed + wheel[DAMPING] * press_rate)
-    rolling, lateral = dot(point_velocity, forward), dot(point_velocity, leftward)
-    spin = v[int(wheel[SPIN_FREEDOM])]
+    rolling, lateral = dot(moving, forward), dot(moving, leftward)
     if head[RIG] == 0.0:
-        slip, tangent_slip = kappa, tangent
-        if abs(rolling) < SLOW:
-            fade = 0.5 * (1.0 + math.cos(math.pi * rolling / SLOW)) * SLOW_SLIP
-            slip -= fade * (rolling - spin * (wheel[RADIUS] - pressed / 3.0))
-            tangent_slip += fade * lateral
-        parameters = doubles(base + types.uint64(8 * int(wheel[TYRE_PARAMETERS])))
-        contact_call(int(wheel[TYRE_LAW]), slip, tangent_slip, road_camber, load, rolling, lateral, friction, parameters, signals)
-        rolling_radius = signals[ROLLING_RADIUS]
-        sliding = rolling - spin * rolling_radius
-        signals[KAPPA_RATE] = slip_rate(kappa, -sliding, rolling, signals[SIGMA_X], MOST_KAPPA)
-        signals[TAN_RATE] = slip_rate(tangent, lateral, rolling, signals[SIGMA_Y], MOST_TAN_ALPHA)
-        if abs(rolling) < SLOW and abs(sliding) < SLOW:
-            settling = 0.5 * (1.0 + math.cos(math.pi * rolling / SLOW)) / HELD_TIME
-            signals[KAPPA_RATE] -= settling * (kappa - min(max(kappa, -HELD_SLIP), HELD_SLIP))
-            signals[TAN_RATE] -= settling * (tangent - min(max(tangent, -HELD_SLIP), HELD_SLIP))
-        torque, signals[BRAKE_RATE] = brake_torque(wheel[BRAKE_TORQUE], pedal, bristle, spin)
+        torque, rolling_radius = gripping(
+            wheel, base, state, signals, road_camber, load, rolling, lateral, spin, friction, pressed, pedal
+        )  # fmt: skip
+        about_axis = signals[MY] - signals[FX] * (rolling_radius - loaded)
     else:
-        for i in range(8):
-            signals[i] = 0.0
-        signals[FX], signals[FY], signals[MZ] = (
-            input_of(wheel, RIG_LONGITUDINAL, ctrl),
-            input_of(wheel, RIG_LATERAL, ctrl),
-            input_of(wheel, RIG_ALIGNING, ctrl),
-        )
-        rolling_radius, torque = 0.0, 5.0 * spin
-        signals[KAPPA_RATE], signals[TAN_RATE], signals[BRAKE_RATE] = -100.0 * kappa, -100.0 * tangent, -100.0 * bristle
-    signals[ELASTIC_X_RATE] = (signals[FX] - pulled) / BUSHING_TIME
-    signals[ELASTIC_Y_RATE] = (signals[FY] - pushed) / BUSHING_TIME
-    signals[ELASTIC_MOMENT_RATE] = (signals[MZ] - twisted) / BUSHING_TIME
+        torque, rolling_radius = pushed_by_rig(wheel, data, state, signals, spin)
+        about_axis = 0.0
+    signals[ELASTIC_X_RATE] = (signals[FX] - state[STATE_FX]) / BUSHING_TIME
+    signals[ELASTIC_Y_RATE] = (signals[FY] - state[STATE_FY]) / BUSHING_TIME
+    signals[ELASTIC_MOMENT_RATE] = (signals[MZ] - state[STATE_MZ]) / BUSHING_TIME
 
     # generalised forces
-    along, across = signals[FX], signals[FY]
-    push = (
-        along * forward[0] + across * leftward[0] + load * normal[0],
-        along * forward[1] + across * leftward[1] + load * normal[1],
-        along * forward[2] + across * leftward[2] + load * normal[2],
-    )
-    about_axis = signals[MY] - along * (rolling_radius - loaded)
-    twist = (
-        signals[MX] * forward[0] + about_axis * axis_world[0] + signals[MZ] * normal[0],
-        signals[MX] * forward[1] + about_axis * axis_world[1] + signals[MZ] * normal[1],
-        signals[MX] * forward[2] + about_axis * axis_world[2] + signals[MZ] * normal[2],
-    )
-    if head[RIG] != 0.0:
-        twist = (signals[MZ] * normal[0], signals[MZ] * normal[1], signals[MZ] * normal[2])
+    push = combined(signals[FX], forward, signals[FY], leftward, load, normal)
+    twist = combined(signals[MX], forward, about_axis, axis, signals[MZ], normal)
     push_body, twist_body = turned_back(r, push), turned_back(r, twist)
-    applied = doubles(data.qfrc_applied)
     driving = drive * wheel[DRIVE_SHARE]
     applied[int(wheel[TRAVEL_FREEDOM])] = (
         push_body[2]
@@ -436,14 +487,14 @@ def contact(head, wheel, base, model, data, signals, road, r, origin, velocity, 
     )
     if wheel[STEER_FREEDOM] >= 0.0:
         applied[int(wheel[STEER_FREEDOM])] = lever_x * push_body[1] - lever_y * push_body[0] + twist_body[2]
-    applied[int(wheel[SPIN_FREEDOM])] = driving - torque + signals[MY] - along * rolling_radius
+    applied[int(wheel[SPIN_FREEDOM])] = driving - torque + signals[MY] - signals[FX] * rolling_radius
     moment = cross(lever, push)
 
-    signals[LOAD], signals[SLIP_RATIO], signals[SLIP_ANGLE] = load, kappa, math.atan(tangent)
-    signals[ROAD_CAMBER], signals[STEER_ANGLE], signals[INCLINATION] = road_camber, heading, -side * lean
+    signals[LOAD], signals[SLIP_RATIO], signals[SLIP_ANGLE] = load, state[STATE_KAPPA], state[STATE_TAN]
+    signals[ROAD_CAMBER], signals[STEER_ANGLE], signals[INCLINATION] = road_camber, heading, camber
     signals[WHEEL_SPEED], signals[DRIVE_TORQUE], signals[BRAKING_TORQUE] = spin, driving, torque
-    signals[ROAD_HEIGHT], signals[WHEEL_HEIGHT] = height + lift, hub[2] - wheel[DESIGN_HEIGHT]
-    signals[CONTACT_X], signals[CONTACT_Y], signals[FRICTION] = place_x - wheel[X], place_y - wheel[Y], friction
+    signals[ROAD_HEIGHT], signals[WHEEL_HEIGHT] = height, hub[2] - wheel[DESIGN_HEIGHT]
+    signals[CONTACT_X], signals[CONTACT_Y], signals[FRICTION] = patch_x, patch_y, friction
     return push, (moment[0] + twist[0], moment[1] + twist[1], moment[2] + twist[2])
 
 
@@ -451,6 +502,34 @@ def contact(head, wheel, base, model, data, signals, road, r, origin, velocity, 
 def is_car(model):
     """Whether a model's first custom numeric is the block of a car."""
     return model.nnumeric > 0 and doubles(model.numeric_data)[0] == CAR_MARK
+
+
+@plain
+def blown(head, data, r, velocity):
+    """Air force and moment about the chassis' origin, in body axes."""
+    force, moment = air(head, data, r, velocity)
+    swept = cross((head[AIR_X], 0.0, head[GROUND_Z]), force)
+    return force, (moment[0] + swept[0], moment[1] + swept[1], moment[2] + swept[2])
+
+
+@plain
+def held(head, data, r, origin, velocity, spin):
+    """Force (inertial axes) and moment (body axes) of the rig's servo on the body."""
+    ctrl = doubles(data.ctrl)
+    k, d = head[RIG_STIFFNESS], head[RIG_DAMPING]
+    height = head[DESIGN_Z] + input_of(head, HEAVE_TARGET, ctrl)
+    roll, pitch, yaw = math.atan2(r[7], r[8]), -math.asin(min(max(r[6], -1.0), 1.0)), math.atan2(r[3], r[0])
+    force = (
+        -k * (origin[0] - head[DESIGN_X]) - d * velocity[0],
+        -k * (origin[1] - head[DESIGN_Y]) - d * velocity[1],
+        -k * (origin[2] - height) - d * velocity[2],
+    )
+    moment = (
+        -head[RIG_RATE_X] * (roll - input_of(head, ROLL_TARGET, ctrl)) - head[RIG_DAMPING_X] * spin[0],
+        -head[RIG_RATE_Y] * (pitch - input_of(head, PITCH_TARGET, ctrl)) - head[RIG_DAMPING_Y] * spin[1],
+        -head[RIG_RATE_Z] * yaw - head[RIG_DAMPING_Z] * spin[2],
+    )
+    return force, moment
 
 
 @plain
@@ -464,25 +543,17 @@ def car_forces(model, data, road, path):
     if model.nuserdata < _SIGNALS + USERDATA_HEADER:
         return
     base = model.numeric_data
-    head = doubles(base)
+    head, wheels = doubles(base), base + types.uint64(8 * _HEAD_SIZE)
     signals_address = data.userdata + types.uint64(8 * (model.nuserdata - _SIGNALS))
-    signals = doubles(signals_address)
+    signals, wheel_signals = doubles(signals_address), signals_address + types.uint64(8 * _CAR_SIGNALS)
     v, applied = doubles(data.qvel), doubles(data.qfrc_applied)
-    rotation, places = doubles(data.xmat + types.uint64(72)), doubles(data.xpos + types.uint64(24))
-    r = (
-        rotation[0], rotation[1], rotation[2], rotation[3], rotation[4], rotation[5], rotation[6], rotation[7], rotation[8],
-    )  # fmt: skip
-    origin = (places[0], places[1], places[2])
-    velocity, spin_body = (v[0], v[1], v[2]), (v[3], v[4], v[5])
-    spin_world = turned(r, spin_body)
-    level = math.sqrt(r[0] * r[0] + r[3] * r[3])
-    speed = (velocity[0] * r[0] + velocity[1] * r[3]) / level
+    rows, places = doubles(data.xmat + types.uint64(72)), doubles(data.xpos + types.uint64(24))
+    r = (rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8])
+    origin, velocity, spin = (places[0], places[1], places[2]), (v[0], v[1], v[2]), (v[3], v[4], v[5])
+    spin_world = turned(r, spin)
+    speed = (velocity[0] * r[0] + velocity[1] * r[3]) / math.sqrt(r[0] * r[0] + r[3] * r[3])
     signals[SPEED] = speed
-    heading = math.atan2(r[3], r[0])
-    angle, angle_rate = steering(head, model, data, signals, path, origin, heading, speed)
-
-    wheels = base + types.uint64(8 * _HEAD_SIZE)
-    wheel_signals = signals_address + types.uint64(8 * _CAR_SIGNALS)
+    angle, angle_rate = steering(head, model, data, signals, path, origin, math.atan2(r[3], r[0]), speed)
     drive = 0.0
     if head[RIG] == 0.0:
         shaft, radius = 0.0, 0.0
@@ -493,42 +564,24 @@ def car_forces(model, data, road, path):
                 radius = wheel[RADIUS]
         drive = power(head, base, model, data, signals, shaft * head[FINAL_DRIVE], radius, speed)
 
-    total_x, total_y, total_z, moment_x, moment_y, moment_z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    force, moment = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     for i in range(4):
         wheel = doubles(wheels + types.uint64(8 * _WHEEL_SIZE * i))
         own = doubles(wheel_signals + types.uint64(8 * _WHEEL_SIGNALS * i))
-        push, twist = contact(
+        push, twist = wheel_forces(
             head, wheel, base, model, data, own, road, r, origin, velocity, spin_world, angle, angle_rate, drive, signals[PEDAL]
         )  # fmt: skip
-        total_x, total_y, total_z = total_x + push[0], total_y + push[1], total_z + push[2]
-        moment_x, moment_y, moment_z = moment_x + twist[0], moment_y + twist[1], moment_z + twist[2]
-
+        force = (force[0] + push[0], force[1] + push[1], force[2] + push[2])
+        moment = (moment[0] + twist[0], moment[1] + twist[1], moment[2] + twist[2])
+    moment = turned_back(r, moment)
     if head[RIG] == 0.0:
-        force, moment = air(head, data, r, velocity)
-        moment = (
-            moment[0] - head[GROUND_Z] * force[1],
-            moment[1] + head[GROUND_Z] * force[0] - head[AIR_X] * force[2],
-            moment[2] + head[AIR_X] * force[1],
-        )
-        force = turned(r, force)
-        total_x, total_y, total_z = total_x + force[0], total_y + force[1], total_z + force[2]
-        turning = turned_back(r, (moment_x, moment_y, moment_z))
-        turning = (turning[0] + moment[0], turning[1] + moment[1], turning[2] + moment[2])
+        more, twist = blown(head, data, r, velocity)
+        more = turned(r, more)
     else:
-        ctrl = doubles(data.ctrl)
-        k, d = head[RIG_STIFFNESS], head[RIG_DAMPING]
-        total_x += -k * (origin[0] - head[DESIGN_X]) - d * velocity[0]
-        total_y += -k * (origin[1] - head[DESIGN_Y]) - d * velocity[1]
-        total_z += -k * (origin[2] - head[DESIGN_Z] - input_of(head, HEAVE_TARGET, ctrl)) - d * velocity[2]
-        roll, pitch = math.atan2(r[7], r[8]), -math.asin(min(max(r[6], -1.0), 1.0))
-        turning = turned_back(r, (moment_x, moment_y, moment_z))
-        turning = (
-            turning[0] - head[RIG_RATE_X] * (roll - input_of(head, ROLL_TARGET, ctrl)) - head[RIG_DAMPING_X] * spin_body[0],
-            turning[1] - head[RIG_RATE_Y] * (pitch - input_of(head, PITCH_TARGET, ctrl)) - head[RIG_DAMPING_Y] * spin_body[1],
-            turning[2] - head[RIG_RATE_Z] * heading - head[RIG_DAMPING_Z] * spin_body[2],
-        )
-    applied[0], applied[1], applied[2] = total_x, total_y, total_z
-    applied[3], applied[4], applied[5] = turning
+        more, twist = held(head, data, r, origin, velocity, spin)
+    for i in range(3):
+        applied[i] = force[i] + more[i]
+        applied[3 + i] = moment[i] + twist[i]
 
 
 @plain

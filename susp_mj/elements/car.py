@@ -24,8 +24,8 @@ controller in charge it shifts down below the second."""
 HEAD = (
     "mark", "length", "freedoms", "rig",
     # actuators whose `ctrl` are the inputs; -1 where there is none
-    "steering_wheel", "driver", "speed_target", "speed_control", "engine", "brake", "wind_x", "wind_y",
-    "heave_target", "roll_target", "pitch_target",
+    "steering_wheel", "driver", "speed_target", "speed_control", "engine", "brake", "wind_x", "wind_y", "heave_target", "roll_target",
+    "pitch_target",
     # steering
     "steering_ratio", "steering_limit", "wheelbase", "rear_axle_x", "ground_z",
     # speed controller
@@ -33,72 +33,74 @@ HEAD = (
     # air
     "air_pressure", "drag", "lift_front", "lift_rear", "side", "yaw", "air_x",
     # power train
-    "driven_rear", "engine_inertia", "idle_speed", "idle_gain", "idle_torque", "coupling", "converter", "coupling_limit", "final_drive",
-    "efficiency", "shift_up", "shift_down", "shift_time", "gears", *(f"gear_{i}" for i in range(1, MOST_GEARS + 1)), "full_torque", "drag_torque",
+    "driven_rear", "engine_inertia", "idle_speed", "idle_gain", "idle_torque", "coupling", "converter", "coupling_limit",
+    "final_drive",
+    "efficiency", "shift_up", "shift_down", "shift_time", "gears", *(f"gear_{i}" for i in range(1, MOST_GEARS + 1)), "full_torque",
+    "drag_torque",
     # rig that holds the body
-    "design_x", "design_y", "design_z", "rig_stiffness", "rig_damping", "rig_rate_x", "rig_rate_y", "rig_rate_z", "rig_damping_x", "rig_damping_y", "rig_damping_z",
+    "design_x", "design_y", "design_z", "rig_stiffness", "rig_damping", "rig_rate_x", "rig_rate_y", "rig_rate_z", "rig_damping_x",
+    "rig_damping_y", "rig_damping_z",
 )  # fmt: skip
 """Numbers of the car as a whole; tables are given by their place in the block."""
 WHEEL = (
-    "side", "rear", "x", "y", "z", "travel_freedom", "steer_freedom", "spin_freedom", "tyre", "steering",
-    "ackermann", "trail", "scrub", "drive_share", "brake_torque", "tyre_law", "tyre_parameters", "radius", "stiffness", "damping", "design_height",
-    "lateral", "longitudinal", "toe", "camber", "swing", "toe_lateral", "camber_lateral", "toe_longitudinal", "toe_aligning",
-    "rig_longitudinal", "rig_lateral", "rig_aligning",
+    "side", "rear", "x", "y", "z", "travel_freedom", "steer_freedom", "spin_freedom", "tyre", "steering", "ackermann", "trail",
+    "scrub", "drive_share", "brake_torque", "tyre_law", "tyre_parameters", "radius", "stiffness", "damping", "design_height", "path",
+    "angles", "swing", "elastic_lateral", "elastic_longitudinal", "elastic_aligning", "rig_longitudinal", "rig_lateral",
+    "rig_aligning",
 )  # fmt: skip
 """Numbers of one wheel."""
 CAR_SIGNALS = (
-    "gear", "shift_began", "trim_angle", "trimming", "driver_rate", "control_rate", "engine_rate",
-    "steering_wheel_angle", "accelerator", "brake_pedal", "engine_speed", "engine_torque", "path_deviation",
-    "control_force", "speed",
+    "gear", "shift_began", "trim_angle", "trimming", "driver_rate", "control_rate", "engine_rate", "steering_wheel_angle",
+    "accelerator", "brake_pedal", "engine_speed", "engine_torque", "path_deviation", "control_force", "speed",
 )  # fmt: skip
 """What the car writes; `gear`, `shift_began` and `trim_angle` it also remembers from one step to the next. While
 `trimming` is not 0 it does not shift, and its pedal knows no limits."""
 WHEEL_SIGNALS = (
     # the tyre law's results, in its order
-    "longitudinal_force", "lateral_force", "overturning_moment", "rolling_moment", "aligning_moment", "relaxation_x", "relaxation_y", "rolling_radius",
-    "wheel_load", "slip_ratio", "slip_angle", "camber_angle", "steer_angle", "inclination_angle", "wheel_speed", "drive_torque", "brake_torque",
-    "road_height", "wheel_displacement", "contact_x", "contact_y", "friction",
+    "longitudinal_force", "lateral_force", "overturning_moment", "rolling_moment", "aligning_moment", "relaxation_x", "relaxation_y",
+    "rolling_radius", "wheel_load", "slip_ratio", "slip_angle", "camber_angle", "steer_angle", "inclination_angle", "wheel_speed",
+    "drive_torque", "brake_torque", "road_height", "wheel_displacement", "contact_x", "contact_y", "friction",
     # rates of the wheel's inner states, in their order
     "slip_ratio_rate", "slip_rate", "brake_rate", "elastic_x_rate", "elastic_y_rate", "elastic_moment_rate",
 )  # fmt: skip
-"""What each wheel writes."""
+"""What each wheel writes; `slip_angle` as its tangent."""
 WHEEL_STATES = 6
 """Inner states of a wheel: kappa, tan alpha, brake bristle, and F_x, F_y, M_z as the elastic suspension feels them, a little later."""
 SIGNALS = (*CAR_SIGNALS, *(f"{corner}_{signal}" for corner in CORNERS for signal in WHEEL_SIGNALS))
 """Names of everything the car writes, in order."""
 
 
-def table_1d(start: float, spacing: float, values: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """A table as the compiled car reads it: ``start, spacing, n, value, slope, value, slope, …``; cubic between the points."""
-    return np.concatenate([[start, spacing, len(values)], np.column_stack([values, slopes]).ravel()])
-
-
-def sampled(places: Sequence[float], values: Sequence[float], *, smooth: bool, count: int = 65) -> np.ndarray:
-    """`table_1d` through given points, sampled evenly: a cubic spline if `smooth`, else a monotone cubic; straight on outside.
+def table(places: Sequence[float], *curves: Sequence[float] | np.ndarray, smooth: bool, count: int = 33) -> np.ndarray:
+    """Curves over one quantity as the compiled car reads them: ``start, 1/spacing, n``, then of each even point, curve by curve,
+    its value and ``slope * spacing``. Between the points they are cubic, outside they go straight on.
 
     Args:
         places: (n,) strictly increasing.
-        values: (n,).
-        smooth: for curves of a mechanism; False for measured force curves, which must not overshoot.
+        curves: (n,) each.
+        smooth: cubic splines through the given points, for mechanisms; else monotone cubics, for measured force curves, which must
+            not overshoot.
         count: number of even points.
     """
     from scipy.interpolate import CubicSpline, PchipInterpolator
 
-    x, y = np.asarray(places, float), np.asarray(values, float)
-    even = np.linspace(x[0], x[-1], count)
-    if len(x) == 2:
-        slope = (y[1] - y[0]) / (x[1] - x[0])
-        return table_1d(even[0], even[1] - even[0], y[0] + slope * (even - x[0]), np.full(count, slope))
-    curve = CubicSpline(x, y) if smooth else PchipInterpolator(x, y)
-    return table_1d(even[0], even[1] - even[0], curve(even), curve(even, 1))
+    x = np.asarray(places, float)
+    even, spacing = np.linspace(x[0], x[-1], count, retstep=True)
+    columns: list[np.ndarray] = []
+    for values in curves:
+        y = np.asarray(values, float)
+        curve = CubicSpline(x, y, bc_type="not-a-knot" if len(x) > 2 else "natural") if smooth else PchipInterpolator(x, y)
+        columns += [curve(even), curve(even, 1) * spacing]
+    return np.concatenate([[even[0], 1 / spacing, count], np.column_stack(columns).ravel()])
 
 
-def table_2d(start: float, spacing: float, tables: Sequence[np.ndarray]) -> np.ndarray:
-    """Tables over one quantity for even values of a second: ``start, spacing, m, stride``, then the `table_1d` one after another."""
-    return np.concatenate([[start, spacing, len(tables), len(tables[0])], *tables])
+def table_of_tables(start: float, spacing: float, tables: Sequence[np.ndarray]) -> np.ndarray:
+    """A `table` for each even value of a second quantity: ``start, 1/spacing, m, length of a table``, then the tables one after another."""
+    return np.concatenate([[start, 1 / spacing, len(tables), len(tables[0])], *tables])
 
 
-def car_block(head: Mapping[str, float], wheels: Sequence[Mapping[str, float]], tables: Sequence[tuple[str, int, np.ndarray]]) -> np.ndarray:
+def car_block(
+    head: Mapping[str, float], wheels: Sequence[Mapping[str, float]], tables: Sequence[tuple[str, int, np.ndarray]]
+) -> np.ndarray:
     """The block: head, wheels, tables.
 
     Args:

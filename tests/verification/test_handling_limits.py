@@ -31,9 +31,7 @@ def turn(angle: float, rise: float = 0.5, start: float = 0.5):
 @pytest.fixture(scope="module")
 def bicycle(tmp_path_factory):
     given = FORMS["bicycle_2090"]["inputs"]
-    car = PlainCar(
-        mass=given["m"], yaw_inertia=given["Iz"], front=given["a"], rear=given["b"], cornering=(given["Cf"], given["Cr"])
-    )
+    car = PlainCar(mass=given["m"], yaw_inertia=given["Iz"], front=given["a"], rear=given["b"], cornering=(given["Cf"], given["Cr"]))
     return build(car.vehicle(tmp_path_factory.mktemp("bicycle")), HANDLING)
 
 
@@ -189,8 +187,7 @@ def test_coast_down_of_the_cars_balances(name, characteristics):
         channels = ("slip_ratio", "slip_angle", "camber_angle", "wheel_load", "steer_angle")
         kappa, alpha, camber, load, steer = (run[f"{corner}_{each}"][every] for each in channels)
         at = [
-            tyre.evaluate(k, math.tan(a), c, z, rolling=v)
-            for k, a, c, z, v in zip(kappa, alpha, camber, load, speed[every], strict=True)
+            tyre.evaluate(k, math.tan(a), c, z, rolling=v) for k, a, c, z, v in zip(kappa, alpha, camber, load, speed[every], strict=True)
         ]
         rolling = np.array([each.rolling_moment for each in at])
         radius = np.array([each.rolling_radius for each in at])
@@ -221,14 +218,22 @@ def test_straight_running_is_steady_from_the_first_instant(name, characteristics
 
 
 MIRRORED = {"lateral_acceleration": -1, "yaw_rate": -1, "roll_angle": -1, "body_displacement": 1, "speed": 1, "position_y": -1}
-MIRRORED_WHEELS = {"wheel_load": 1, "suspension_deflection": 1, "slip_angle": -1, "camber_angle": -1, "lateral_force": -1, "longitudinal_force": 1}
+MIRRORED_WHEELS = {
+    "wheel_load": 1,
+    "suspension_deflection": 1,
+    "slip_angle": -1,
+    "camber_angle": -1,
+    "lateral_force": -1,
+    "longitudinal_force": 1,
+}
 
 
 @pytest.mark.parametrize(("name", "characteristics"), CARS)
 def test_left_and_right_turns_mirror(name, characteristics):
     plant = build(load_vehicle(name, characteristics), HANDLING)
     left, right = (
-        simulate(plant, Driven(duration=4.0, speed=20.0, inputs={"steering_wheel_angle": [(0.5, 0.0), (0.7, angle)]})) for angle in (1.4, -1.4)
+        simulate(plant, Driven(duration=4.0, speed=20.0, inputs={"steering_wheel_angle": [(0.5, 0.0), (0.7, angle)]}))
+        for angle in (1.4, -1.4)
     )
     assert abs(left["lateral_acceleration"]).max() > 5.0
     pairs = [(name, name, sign) for name, sign in MIRRORED.items()]

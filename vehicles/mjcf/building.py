@@ -37,9 +37,7 @@ def build(vehicle: Vehicle, model: str, load: str = DESIGN_LOAD, axle: str | Non
     return Plant.from_spec(*specification(vehicle, model, load, axle, rig))
 
 
-def write(
-    vehicle: Vehicle, model: str, path: str | Path, load: str = DESIGN_LOAD, axle: str | None = None, rig: str | None = None
-) -> Path:
+def write(vehicle: Vehicle, model: str, path: str | Path, load: str = DESIGN_LOAD, axle: str | None = None, rig: str | None = None) -> Path:
     """Write the MJCF file of the model that `build` makes, complete and with every digit."""
     return write_mjcf(*specification(vehicle, model, load, axle, rig), path)
 

@@ -17,10 +17,10 @@ import mujoco
 import numpy as np
 
 from susp_mj.elements import GRAVITY, Rig
-from susp_mj.elements.car import CAR_NUMERIC, CAR_SIGNALS, HEAD, MOST_GEARS, WHEEL_SIGNALS, WHEEL_STATES, car_block, sampled, table_2d
+from susp_mj.elements.car import CAR_NUMERIC, CAR_SIGNALS, HEAD, MOST_GEARS, WHEEL_SIGNALS, WHEEL_STATES, car_block, table, table_of_tables
 from susp_mj.errors import InputError
 from susp_mj.meaning import Meaning
-from susp_mj.names import CORNERS, QUANTITIES, channel_name
+from susp_mj.names import CORNERS, QUANTITIES
 
 from ..vehicle import DESIGN_LOAD, Axle, Vehicle
 from .axles import Corner, add_suspension, note_stiffness
@@ -37,7 +37,6 @@ _STALL_SPEED = 220.0  # rad/s at which the converter holds the engine's largest 
 _IDLE_GAIN = 10.0  # N m s/rad of the idle governor
 _STEER_ROWS = 17
 _WHEEL_MASS_SHARE = 0.5
-_PLANE = 1.0
 
 
 @dataclass(frozen=True)
@@ -80,7 +79,8 @@ def handling_specification(vehicle: Vehicle, load: str, rig: str | None) -> tupl
         **{**POINT_MASS, "inertia": list(case.inertia)},
     )
     chassis.add_freejoint(name="chassis")
-    builder.draw(chassis, mujoco.mjtGeom.mjGEOM_BOX, [2.3, 0.85, 0.35], [0.16, 0.36, 0.6, 1], pos=[-case.cg[0] - vehicle.wheelbase / 2, 0, 0.1])
+    middle = [-case.cg[0] - vehicle.wheelbase / 2, 0, 0.1]
+    builder.draw(chassis, mujoco.mjtGeom.mjGEOM_BOX, [2.3, 0.85, 0.35], [0.16, 0.36, 0.6, 1], pos=middle)
     for wheel in wheels:
         _add_wheel(builder, vehicle, chassis, wheel, -case.cg[2])
     for wheel in wheels:
@@ -141,9 +141,7 @@ def _add_wheel(builder: ModelBuilder, vehicle: Vehicle, chassis: Any, wheel: _Wh
     """Carrier on its slide, knuckle on the steering hinge, wheel on its spin."""
     corner, mass = wheel.corner, wheel.corner.axle.unsprung_mass or 0.0
     spin = corner.axle.wheel_inertia or 0.0
-    carrier = chassis.add_body(
-        name=corner.name("carrier"), pos=[corner.x, corner.y, z], mass=(1 - _WHEEL_MASS_SHARE) * mass, **POINT_MASS
-    )
+    carrier = chassis.add_body(name=corner.name("carrier"), pos=[corner.x, corner.y, z], mass=(1 - _WHEEL_MASS_SHARE) * mass, **POINT_MASS)
     builder.joint(carrier, corner.name("travel"), "slide", [0, 0, 1])
     holder = carrier
     if wheel.front:
@@ -165,10 +163,10 @@ def _add_forces(builder: ModelBuilder, vehicle: Vehicle, wheel: _Wheel) -> None:
     add_suspension(builder, corner, Form({corner.name("travel"): 1.0}))
     mass = corner.axle.unsprung_mass or 0.0
     note_stiffness(builder, corner, mass, tyre=False)
-    key = f"{corner.axle_name}.handling_tyre.vertical_stiffness"
-    builder.resolve(key, wheel.tyre.vertical_stiffness, "N/m", math.sqrt(mass / wheel.tyre.vertical_stiffness), power=2.0)
-    if wheel.tyre.vertical_damping > 0:
-        builder.resolve(f"{corner.axle_name}.handling_tyre.vertical_damping", wheel.tyre.vertical_damping, "N s/m", mass / wheel.tyre.vertical_damping)
+    key, stiffness, damping = f"{corner.axle_name}.handling_tyre", wheel.tyre.vertical_stiffness, wheel.tyre.vertical_damping
+    builder.resolve(f"{key}.vertical_stiffness", stiffness, "N/m", math.sqrt(mass / stiffness), power=2.0)
+    if damping > 0:
+        builder.resolve(f"{key}.vertical_damping", damping, "N s/m", mass / damping)
     if wheel.front:
         steering = vehicle.steering
         assert steering is not None
@@ -283,12 +281,12 @@ def _block(
     values |= {name: float(model.actuator(name).id) if name in controls else -1.0 for name in ("steering_wheel", "speed_target", "engine")}
     places: list[dict[str, float]] = []
     tables = [
-        ("full_torque", -1, sampled(train.speed, train.full_torque, smooth=False)),
-        ("drag_torque", -1, sampled(train.speed, train.drag_torque, smooth=False)),
+        ("full_torque", -1, table(train.speed, train.full_torque, smooth=False, count=65)),
+        ("drag_torque", -1, table(train.speed, train.drag_torque, smooth=False, count=65)),
     ]
     for i, wheel in enumerate(wheels):
         places.append(_wheel_numbers(model, vehicle, wheel, rig))
-        tables += [(name, i, table) for name, table in _wheel_tables(wheel).items()]
+        tables += [(name, i, numbers) for name, numbers in _wheel_tables(wheel).items()]
     return car_block(values, places, tables)
 
 
@@ -334,30 +332,32 @@ def _wheel_tables(wheel: _Wheel) -> dict[str, np.ndarray]:
     """Kinematics over travel and steering, compliance over force, the tyre's parameters."""
     kinematics, compliance = wheel.corner.axle.kinematics, wheel.corner.axle.compliance
     assert kinematics is not None and compliance is not None
-    tables = {name: sampled(kinematics.travel, kinematics.path(name), smooth=True) for name in ("lateral", "longitudinal")}
-    for name in ("toe", "camber"):
-        tables[name] = _angle_table(kinematics.travel, kinematics.steer, kinematics.angles(name))
-    for name, force, values in (
-        ("toe_lateral", compliance.lateral_force, compliance.toe),
-        ("camber_lateral", compliance.lateral_force, compliance.camber),
-        ("toe_longitudinal", compliance.longitudinal_force, compliance.toe_longitudinal),
-        ("toe_aligning", compliance.aligning_moment, compliance.toe_aligning),
-    ):
-        if values:
-            tables[name] = sampled(force, values, smooth=False)
-    tables["tyre_parameters"] = np.array(wheel.tyre.parameters())
+    tables = {
+        "path": table(kinematics.travel, kinematics.path("lateral"), kinematics.path("longitudinal"), smooth=True),
+        "angles": _angle_tables(kinematics.travel, kinematics.steer, kinematics.angles("toe"), kinematics.angles("camber")),
+        "tyre_parameters": np.array(wheel.tyre.parameters()),
+    }
+    if compliance.lateral_force:
+        nothing = [0.0] * len(compliance.lateral_force)
+        curves = [compliance.toe or nothing, compliance.camber or nothing]
+        tables["elastic_lateral"] = table(compliance.lateral_force, *curves, smooth=False)
+    if compliance.longitudinal_force:
+        tables["elastic_longitudinal"] = table(compliance.longitudinal_force, compliance.toe_longitudinal, smooth=False)
+    if compliance.aligning_moment:
+        tables["elastic_aligning"] = table(compliance.aligning_moment, compliance.toe_aligning, smooth=False)
     return tables
 
 
-def _angle_table(travel: Sequence[float], steer: Sequence[float], angles: np.ndarray) -> np.ndarray:
-    """A table over travel for evenly spaced steer angles; between the given ones the angles follow a cubic spline."""
-    if angles.shape[1] == 1:
-        return table_2d(0.0, 1.0, [sampled(travel, angles[:, 0], smooth=True)])
+def _angle_tables(travel: Sequence[float], steer: Sequence[float], toe: np.ndarray, camber: np.ndarray) -> np.ndarray:
+    """Toe and camber over travel for evenly spaced steer angles; between the given ones they follow cubic splines."""
+    if len(steer) == 0:
+        return table_of_tables(0.0, 1.0, [table(travel, toe[:, 0], camber[:, 0], smooth=True)])
     from scipy.interpolate import CubicSpline
 
-    even = np.linspace(steer[0], steer[-1], _STEER_ROWS)
-    between = CubicSpline(steer, angles, axis=1)(even) if len(steer) > 2 else np.array([np.interp(even, steer, row) for row in angles])
-    return table_2d(even[0], even[1] - even[0], [sampled(travel, between[:, j], smooth=True) for j in range(_STEER_ROWS)])
+    even, spacing = np.linspace(steer[0], steer[-1], _STEER_ROWS, retstep=True)
+    ends = "not-a-knot" if len(steer) > 2 else "natural"
+    toes, cambers = (CubicSpline(steer, angles, axis=1, bc_type=ends)(even) for angles in (toe, camber))
+    return table_of_tables(even[0], spacing, [table(travel, toes[:, j], cambers[:, j], smooth=True) for j in range(_STEER_ROWS)])
 
 
 __all__ = ["CAR_NUMERIC", "HANDLING", "K_AND_C", "handling_specification"]

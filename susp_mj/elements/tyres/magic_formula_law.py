@@ -304,7 +304,7 @@ def sine(x: float) -> float:
 def equivalent_tangent(angle: float, ratio: float) -> float:
     """Tangent of the size of `equivalent_slip`, for ``ratio = K_x kappa/K_y``, with ``tan² = sin²/(1 - sin²)``."""
     square = sine(angle) ** 2
-    return math.sqrt(square / (1.0 - square) + ratio * ratio)
+    return math.sqrt(square / max(1.0 - square, 1e-30) + ratio * ratio)
 
 
 def magic_formula_contact(  # noqa: PLR0915 - one long formula, in the order in which the processor overlaps it best
@@ -375,8 +375,10 @@ def magic_formula_contact(  # noqa: PLR0915 - one long formula, in the order in 
     t, r = arctangent(t), arctangent(r)
     t, r = b_t * math.copysign(t, slip_t), b_r * r
     # the inner arc tangents, the outer ones, the curves
-    in_x, in_y, in_a, in_k = arctangent(x), arctangent(y), arctangent(a), arctangent(k)
-    in_t, skew = arctangent(t), arctangent(b_t * p[QCZ1] * slip_t)
+    in_x, in_y, in_t, skew = arctangent(x), arctangent(y), arctangent(t), arctangent(b_t * p[QCZ1] * slip_t)
+    in_a, in_k = a, k
+    if e_a != 0.0 or e_k != 0.0:
+        in_a, in_k = arctangent(a), arctangent(k)
     e_t = p[QEZ1] + (p[QEZ2] + p[QEZ3] * dfz) * dfz
     e_t = min(1.0, e_t * (1.0 + (p[QEZ4] + p[QEZ5] * gamma) * (2.0 / math.pi) * skew))
     x, y = arctangent(x - e_x * (x - in_x)), arctangent(y - e_y * (y - in_y))
