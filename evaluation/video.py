@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 
-from susp_mj.errors import InputError, SuspMjError
+from susp_mj.errors import SuspMjError
 
 NO_GL = (
     "rendering needs OpenGL without a screen, which does not work here: "
@@ -141,22 +141,3 @@ class Encoder:
         self._messages.seek(0)
         lines = self._messages.read().decode(errors="replace").strip().splitlines()
         return f"ffmpeg failed: {lines[-1] if lines else f'exit status {self._process.returncode}'}"
-
-
-def unfinished_file(path: Path) -> Path:
-    """An empty file beside `path` to write the video to before it takes its name.
-
-    Raises:
-        InputError: not an .mp4 name, or the place cannot be written.
-    """
-    if path.suffix.lower() != ".mp4":
-        raise InputError("is not allowed; the name of a video must end in .mp4", source=str(path))
-    if path.is_dir():
-        raise InputError("cannot be written: is a directory", source=str(path))
-    unfinished = path.with_name(path.name + ".part")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        unfinished.write_bytes(b"")
-    except OSError as error:
-        raise InputError(f"cannot be written: {error.strerror or error}", source=str(path)) from None
-    return unfinished

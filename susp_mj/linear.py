@@ -107,6 +107,8 @@ def linearise(plant: Plant) -> Linear:
     Raises:
         InputError, SimulationError: as `static_equilibrium`.
     """
+    if plant.contacts:
+        raise InputError(f"model {plant.meaning.model} has no modes; choose an oscillation model", key="model", source=plant.meaning.source)
     model = plant.model
     rest = static_equilibrium(plant)
     entries = plant.entries()

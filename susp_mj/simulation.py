@@ -35,6 +35,7 @@ STABLE = 2.785
 
 _FIELDS = ("qpos", "qvel", "qacc", "actuator_force")
 _TANGENTS = [i for i, name in enumerate(SIGNALS) if name.endswith("slip_angle")]
+_FALLING = 1.0  # rad
 _CHUNK = 2000
 
 Progress = Callable[[float], None]
@@ -261,8 +262,13 @@ def _diverged(run: Run, step: float) -> str:
     last = {name: channel.values[-1] for name, channel in run.channels.items()}
     broken = [name for name, value in last.items() if not np.isfinite(value)]
     accelerations = [name for name in last if name.endswith("acceleration")] or list(last)
+    who = f"{run.meta['vehicle']}, {run.meta['model']}, {run.meta['manoeuvre']['kind']}"
+    if "yaw_angle" in run and len(run.time) > 1:
+        roll, pitch = run["roll_angle"][-2], run["pitch_angle"][-2]
+        if max(abs(roll), abs(pitch)) > _FALLING:
+            return f"{who}: the car fell over at t = {run.time[-1]:.3f} s, its roll angle {np.degrees(roll):.0f}°"
     name = broken[0] if broken else max(accelerations, key=lambda each: abs(last[each]))
     return (
-        f"{run.meta['vehicle']}, {run.meta['model']}, {run.meta['manoeuvre']['kind']}: diverged at t = {run.time[-1]:.4f} s, "
+        f"{who}: diverged at t = {run.time[-1]:.4f} s, "
         f"{name} = {last[name]:.3g} {run.channels[name].unit}; the step of {1000 * step:g} ms is too long for the stiffest element"
     )

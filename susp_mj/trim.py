@@ -37,7 +37,7 @@ class Blocks:
 def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
     """Data of the car running straight along x at a steady speed, its front axle at x = 0: nothing accelerates, inner states rest.
 
-    Solved for: height, roll, pitch and side slip of the body, travels, steering, wheel speeds, the inner states of tyres and
+    Solved for: height, roll, pitch and heading of the body, travels, steering, wheel speeds, the inner states of tyres and
     engine, the controller's force, and the steering wheel angle that keeps it straight.
 
     Args:
@@ -141,17 +141,15 @@ class _Unknowns:
         data.qpos[:], data.qvel[:] = 0.0, 0.0
         data.qpos[:3] = self.place
         data.qpos[2] += v[0]
-        roll, pitch = v[1], v[2]
+        roll, pitch, yaw = v[1:4]
         if self.driving:
-            data.qvel[:2] = self.speed, v[3]
+            data.qvel[0] = self.speed
             data.qvel[self.spins] = v[10:14]
             signals = signals_of(self.model, data)
             signals[_TRIM_ANGLE], signals[_TRIMMING] = v[-1], 1.0
             signals[_GEAR], signals[_SHIFT_BEGAN] = self.gear, -1e3
-            yaw = 0.0
         else:
             data.qpos[:2] += v[10:12]
-            yaw = v[3]
         mujoco.mju_euler2Quat(data.qpos[3:7], [roll, pitch, yaw], "XYZ")
         data.qpos[self.travels] = v[4:8]
         data.qpos[self.steers] = v[8:10]

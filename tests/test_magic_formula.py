@@ -294,7 +294,61 @@ def test_vertical_load_and_rolling_radius():
     radii = [TYRE.rolling_radius(load) for load in np.linspace(0, 9000, 50)]
     assert radii[0] == TYRE.radius
     assert (np.diff(radii) < 0).all()
-    assert radii[-1] > TYRE.radius - 9000 / TYRE.vertical.VERTICAL_STIFFNESS
+    assert radii[-1] > TYRE.radius - 9000 / TYRE.vertical_stiffness
+
+
+# ---- everything at once
+
+
+@given(
+    k=st.floats(-1.6, 1.6),
+    a=st.floats(-1.4, 1.4),
+    c=st.floats(-0.3, 0.3),
+    f=st.just(0.0) | st.floats(1e-3, 12000.0),
+    v=st.floats(-60, 60),
+    w=st.floats(-20, 20),
+    grip=st.sampled_from((1.0, 0.5, 0.1)),
+    tyre=st.sampled_from((TYRE, FULL, FULL.mounted("RIGHT"), TYRE.uncombined(), FULL.uncombined(), SYMMETRIC)),
+)
+def test_contact_is_the_readable_functions(k, a, c, f, v, w, grip, tyre):
+    """To 1e-12 of the value, or of a thousandth of its size; the road's friction is a factor on LMUX and LMUY."""
+    scale = tyre.scaling
+    p = changed(tyre, scaling={"LMUX": scale.LMUX * grip, "LMUY": scale.LMUY * grip}).parameters()
+    found = tyre.evaluate(k, math.tan(a), c, f, v, w, grip)
+    a, h = math.atan(math.tan(a)), slip.heading(v, w)
+    fx = law.longitudinal_force(k, a, c, f, p)
+    expected = (
+        fx,
+        law.lateral_force(k, a, c, f, p),
+        law.overturning_moment(k, a, c, f, p),
+        law.rolling_resistance_moment(fx, v, f, h, p),
+        law.aligning_moment(k, a, c, f, h, p),
+        max(slip.SMALLEST_RELAXATION, law.longitudinal_relaxation_length(f, p)),
+        max(slip.SMALLEST_RELAXATION, law.lateral_relaxation_length(c, f, p)),
+        tyre.rolling_radius(f),
+    )
+    sizes = [1e-3 * grip * f] * 2 + [1e-4 * grip * f] * 3 + [0.0] * 3
+    for name, value, there, size in zip(found._fields, found, expected, sizes, strict=True):
+        assert value == pytest.approx(there, rel=1e-12, abs=1e-12 * size + 1e-18), name
+
+
+def test_friction_of_the_road_leaves_the_stiffness():
+    """Halved, it halves the peak; at vanishing slip the force is the same. The stiffness is that of F_y0 over alpha."""
+    p = SYMMETRIC_P
+    for grip in (1.0, 0.5, 0.1, 0.01):
+        slope = (SYMMETRIC.evaluate(0, 1e-7, 0, 4000, friction=grip)[1] - SYMMETRIC.evaluate(0, -1e-7, 0, 4000, friction=grip)[1]) / 2e-7
+        assert slope == pytest.approx(law.cornering_stiffness(0.0, 4000, p), rel=1e-6)
+        peak = max(abs(SYMMETRIC.evaluate(0, a, 0, 4000, friction=grip)[1]) for a in np.geomspace(1e-4, 10, 2000))
+        assert peak == pytest.approx(grip * 4000 * law.lateral_friction(0, 4000, p), rel=1e-3)
+
+
+def test_own_arc_tangent_and_sine():
+    x = np.concatenate([np.linspace(-6, 6, 4001), np.geomspace(1e-300, 1e300, 4001), -np.geomspace(1e-12, 1e12, 101)]).tolist()
+    np.testing.assert_allclose([law.arctangent(each) for each in x], np.arctan(x), rtol=4e-16)
+    x = np.linspace(-15, 15, 4001).tolist()
+    np.testing.assert_allclose([law.sine(each) for each in x], np.sin(x), rtol=1e-15, atol=2e-15)
+    assert math.isnan(law.arctangent(math.nan))
+    assert law.arctangent(0.0) == law.sine(0.0) == 0.0
 
 
 # ---- compiled

@@ -37,6 +37,7 @@ def test_shipped_tyres_load_and_name_their_source(path):
     tyre = load_tyre(path)
     assert all(math.isfinite(value) for value in tyre.parameters())
     assert "cited:" in path.read_text(encoding="utf-8")
+    assert math.isfinite(sum(tyre.evaluate(0.02, 0.03, 0.01, 3000.0)))
 
 
 def test_every_coefficient_arrives():
@@ -86,8 +87,8 @@ def test_units(tmp_path):
     )
     tyre = load_tyre(path)
     assert (tyre.radius, tyre.vertical.FNOMIN, tyre.ranges.FZMAX) == pytest.approx((0.344, 4850, 10125), rel=1e-12)
-    assert pytest.approx(there.vertical.VERTICAL_STIFFNESS, rel=1e-12) == tyre.vertical.VERTICAL_STIFFNESS
-    assert pytest.approx(there.vertical.VERTICAL_DAMPING, rel=1e-12) == tyre.vertical.VERTICAL_DAMPING
+    assert pytest.approx(there.vertical_stiffness, rel=1e-12) == tyre.vertical_stiffness
+    assert pytest.approx(there.vertical_damping, rel=1e-12) == tyre.vertical_damping
     assert pytest.approx(16.6, rel=1e-12) == tyre.model.LONGVL
     assert pytest.approx(math.pi / 2, rel=1e-12) == tyre.ranges.ALPMAX
     assert tyre.lateral == there.lateral, "coefficients are those of the formula in radians"
@@ -110,7 +111,11 @@ def test_fit_types_of_52(tmp_path, fit):
 @pytest.mark.parametrize(
     ("old", "new", "parts"),
     [
-        ("PROPERTY_FILE_FORMAT", "FITTYP = 61\nPROPERTY_FILE_FORMAT", ("MODEL.FITTYP", "'61' is not supported", "6 (MF 5.2)")),
+        (
+            "PROPERTY_FILE_FORMAT",
+            "FITTYP = 63\nPROPERTY_FILE_FORMAT",
+            ("MODEL.FITTYP", "'63' is not supported", "6 (MF 5.2)", "61 (MF 6.1)"),
+        ),
         ("'PAC2002'", "'PAC_MC'", ("MODEL.PROPERTY_FILE_FORMAT", "'PAC_MC' is not supported", "PAC2002")),
         ("PROPERTY_FILE_FORMAT = 'PAC2002'", "", ("MODEL.PROPERTY_FILE_FORMAT", "is required", "PAC2002")),
         ("'PAC2002'", "'USER'", ("MODEL.FITTYP", "is required")),
@@ -136,6 +141,93 @@ def test_errors_name_file_key_value_and_choices(tmp_path, old, new, parts):
     text = error_of(tmp_path, (old, new))
     for part in parts:
         assert part in text
+
+
+# ---- MF 6.1
+
+SHIPPED_61 = FOLDER / "tyres" / "mf61_205_60R15.tir"
+TEXT_61 = SHIPPED_61.read_text(encoding="utf-8")
+
+
+def test_every_coefficient_of_61_arrives():
+    tyre = load_tyre(SHIPPED_61)
+    sections = read_sections(SHIPPED_61)
+    for section, name in (("STRUCTURAL", "structure"), ("OPERATING_CONDITIONS", "operation"), ("INFLATION_PRESSURE_RANGE", "ranges")):
+        for key, text in sections[section].items():
+            assert getattr(getattr(tyre, name), key) == float(text)
+    for name in ("longitudinal", "lateral", "aligning", "overturning", "rolling"):
+        there = {key: float(text) for key, text in sections[f"{name.upper()}_COEFFICIENTS"].items()}
+        found = getattr(tyre, name).model_dump()
+        assert there == {key: found[key] for key in there}
+        assert len(there) > 6
+    assert tyre.kind == "magic_formula_61"
+    assert (tyre.radius, tyre.vertical_stiffness, tyre.vertical.Q_FZ2) == (0.3135, 209651, 15.4)
+
+
+@pytest.mark.parametrize("fit", ["61", "62"])
+@pytest.mark.parametrize("form", ["", "PROPERTY_FILE_FORMAT = 'MF-TYRE'\n"])
+def test_fit_types_of_61(tmp_path, fit, form):
+    path = written(tmp_path, ("FITTYP = 61", f"{form}FITTYP = {fit}"), text=TEXT_61)
+    assert load_tyre(path) == load_tyre(SHIPPED_61)
+
+
+def test_units_of_61(tmp_path):
+    """Pressures and the stiffness of the carcass follow [UNITS]."""
+    there = load_tyre(SHIPPED_61)
+    changes = [
+        ("'pascal'", "'bar'"),
+        ("'meter'", "'mm'"),
+        ("UNLOADED_RADIUS = 0.3135", "UNLOADED_RADIUS = 313.5"),
+        ("LONGVL = 16.7", "LONGVL = 16700"),
+        ("VERTICAL_STIFFNESS = 209651", "VERTICAL_STIFFNESS = 209.651"),
+        ("VERTICAL_DAMPING = 500", "VERTICAL_DAMPING = 0.5"),
+        ("LONGITUDINAL_STIFFNESS = 358000", "LONGITUDINAL_STIFFNESS = 358"),
+        ("LATERAL_STIFFNESS = 103000", "LATERAL_STIFFNESS = 103"),
+        ("INFLPRES = 220000", "INFLPRES = 2.2"),
+        ("NOMPRES = 220000", "NOMPRES = 2.2"),
+        ("PRESMIN = 180000", "PRESMIN = 1.8"),
+        ("PRESMAX = 300000", "PRESMAX = 3"),
+    ]
+    tyre = load_tyre(written(tmp_path, *changes, text=TEXT_61))
+    assert tyre.parameters() == pytest.approx(there.parameters(), rel=1e-12)
+    assert pytest.approx((220000, 300000), rel=1e-12) == (tyre.operation.NOMPRES, tyre.ranges.PRESMAX)
+    assert tyre.vertical_stiffness == pytest.approx(there.vertical_stiffness, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "parts"),
+    [
+        ("NOMPRES = 220000", "", ("OPERATING_CONDITIONS.NOMPRES", "is required")),
+        ("[OPERATING_CONDITIONS]\nINFLPRES = 220000\nNOMPRES = 220000", "", ("OPERATING_CONDITIONS", "is required")),
+        ("LATERAL_STIFFNESS = 103000", "", ("STRUCTURAL.LATERAL_STIFFNESS", "is required")),
+        ("PKY6 = -0.8987", "", ("LATERAL_COEFFICIENTS.PKY6", "is required")),
+        ("PKY6 = -0.8987", "PKY6 = -0.8987\nPHY3 = 0.1", ("LATERAL_COEFFICIENTS.PHY3", "unknown coefficient of MF 6.1")),
+        ("VERTICAL_STIFFNESS = 209651", "", ("VERTICAL.VERTICAL_STIFFNESS", "is required")),
+        ("INFLPRES = 220000", "INFLPRES = 120000", ("OPERATING_CONDITIONS.INFLPRES", "120000 Pa", "180000 to 300000")),
+        ("PRESMAX = 300000", "PRESMAX = -3", ("INFLATION_PRESSURE_RANGE.PRESMAX", "greater than 0")),
+        ("RBY1 = 10.622", "", ("LATERAL_COEFFICIENTS.RBY1", "USE_MODE 4")),
+        ("FITTYP = 61", "FITTYP = 7", ("MODEL.FITTYP", "'7' is not supported", "61 (MF 6.1), 62 (MF 6.1)")),
+    ],
+)
+def test_errors_of_61(tmp_path, old, new, parts):
+    with pytest.raises(InputError) as caught:
+        load_tyre(written(tmp_path, (old, new), text=TEXT_61))
+    for part in ("mine.tir: ", *parts):
+        assert part in str(caught.value)
+
+
+def test_what_61_does_without_passes(tmp_path):
+    extra = "PCX1 = 1.579\nPTX1 = 1.98\n"
+    path = written(
+        tmp_path, ("PCX1 = 1.579\n", extra), ("[LATERAL_C", "[SCALING_COEFFICIENTS]\nLGAX = 1\nLMUV = 0\n[LATERAL_C"), text=TEXT_61
+    )
+    assert load_tyre(path) == load_tyre(SHIPPED_61)
+
+
+def test_pressure_of_the_caller():
+    assert load_tyre(SHIPPED_61, inflation_pressure=250000.0).operation.INFLPRES == 250000.0
+    with pytest.raises(InputError, match=r"pac2002_245_40R18.tir: inflation_pressure: MF 5.2 does not depend on it"):
+        load_tyre(SHIPPED, inflation_pressure=250000.0)
 
 
 def test_missing_file(tmp_path):

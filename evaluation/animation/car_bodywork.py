@@ -69,6 +69,14 @@ def bodywork(picture: Picture, layout: Layout) -> None:
     _lamps(picture, body, layout)
 
 
+def saloon_surfaces(wheelbase: float, half_track: float, wheel_radius: float, tyre_radius: float, *, fine: bool) -> dict[str, Any]:
+    """Surfaces of a closed car by material, see `vehicles.mjcf.saloon`; lengths in m."""
+    from vehicles.mjcf import tub
+
+    half = max(half_track + 0.165, 0.80)
+    return tub.saloon(tub.Saloon(wheelbase, half, wheel_radius, tyre_radius + 0.052, (130, 56) if fine else (84, 38)))
+
+
 def _lamps(picture: Picture, body: Any, layout: Layout) -> None:
     """Head lamps and tail lamps, so that one sees where the front is."""
     slim = layout.half_track - 0.36

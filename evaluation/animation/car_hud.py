@@ -13,10 +13,10 @@ from susp_mj.run import Run
 from ..colours import LIFTED, rgb
 from .chart import Chart
 from .clip import Clip, at, stations_of
-from .hud import Hud, lift
+from .hud import Diagram, Hud
 from .layout import INK, PAPER, SOFT, Box, typeface
 from .titles import signed
-from .window import Window
+from .window import Window, lift
 
 ANGLES = {"roll_angle": "roll", "pitch_angle": "pitch"}
 SIGNS = {"roll_angle": "left side up +", "pitch_angle": "nose down +"}
@@ -29,7 +29,7 @@ class CarHud(Hud):
 
     aside: ClassVar[float] = 170.0
 
-    def charts(self, left: Box, right: Box) -> list[Chart]:
+    def charts(self, left: Box, right: Box) -> Sequence[Diagram]:
         quantity = liveliest_angle(self.clips, self.window)
         if quantity is None:
             signals, title = [(clip.run.time, clip.run["body_acceleration"]) for clip in self.clips], "Body acceleration in m/s²"

@@ -6,60 +6,36 @@ from typing import Any
 
 import numpy as np
 
-from susp_mj.run import Run
-
 from .car_pose import WHEEL_RADIUS, CarPose, Layout, about_x, about_y, road_speed, upright
 from .car_shapes import ARM_HEIGHT, HINGE, car_spec
+from .scene import Frame, Scene, free_camera, put
+from .style import Shot
 from .window import Window
 
 _HALF_ANGLE = 9.0
 
 
-class CarScene:
-    """Picture of one car, driving over its road or standing on a test rig; one OpenGL context each.
+class CarScene(Scene):
+    """Picture of one car, driving over its road or standing on a test rig.
 
     Args:
-        run: what to show.
-        colour: of the bodywork, ``#rrggbb``.
-        size: (width, height) of the picture [px].
+        shot: what to show.
         window: stretch of the run, for the length of the road.
     """
 
-    def __init__(self, run: Run, colour: str, size: tuple[int, int], window: Window) -> None:
-        import mujoco
+    def __init__(self, shot: Shot, window: Window) -> None:
+        self.run = shot.clips[0].run
+        self.layout = Layout.of(self.run)
+        super().__init__(car_spec(self.run, self.layout, shot.colours[0], shot.size, window, shot.style.samples), shot.size)
+        self.camera = _camera(self.model, self.layout, shot.size, road_speed(self.run, self.layout) > 0)
 
-        self.run = run
-        self.layout = Layout.of(run)
-        self.model = car_spec(run, self.layout, colour, size, window).compile()
-        self.data = mujoco.MjData(self.model)
-        self.renderer = mujoco.Renderer(self.model, size[1], size[0])
-        self.renderer.scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = 1
-        self.camera = _camera(self.model, self.layout, size, road_speed(run, self.layout) > 0)
-
-    def picture(self, time: float) -> np.ndarray:
-        """(height, width, 3) picture at a time of the run [s]."""
+    def pose(self, time: float) -> None:
         place(self.model, self.data, CarPose.of(self.run, self.layout, time))
-        self.renderer.update_scene(self.data, self.camera)
-        return self.renderer.render()
-
-    def close(self) -> None:
-        """Free the OpenGL context."""
-        self.renderer.close()
 
 
 def place(model: Any, data: Any, pose: CarPose) -> None:
-    """Put every part of the picture in its place, coils and arms stretched; lights too, or the scene goes dark."""
-    import mujoco
-
-    for name, (position, rotation) in frames(pose).items():
-        body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
-        if body >= 0:
-            slot = model.body_mocapid[body]
-            data.mocap_pos[slot] = position
-            mujoco.mju_mat2Quat(data.mocap_quat[slot], rotation.ravel())
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)
-    mujoco.mj_camlight(model, data)
+    """Put every part of the picture in its place, coils and arms stretched."""
+    put(model, data, frames(pose))
     strut = pose.layout.strut
     for station in pose.layout.places:
         stretch(model, data, f"{station}_coil", strut.seat, pose.coil_length(station) / strut.coil)
@@ -80,7 +56,7 @@ def stretch(model: Any, data: Any, geom: str, start: float, scale: float) -> Non
     data.geom_xmat[number] = (rotation @ longer @ turned.reshape(3, 3)).ravel()
 
 
-def frames(pose: CarPose) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def frames(pose: CarPose) -> dict[str, Frame]:
     """Place [m] and (3, 3) rotation of every body of the picture, by name."""
     layout, level = pose.layout, np.eye(3)
     placed = {"body": (pose.on_body(np.zeros(3)), pose.turned), "road": (np.array([-pose.travelled, 0.0, 0.0]), level)}
@@ -113,10 +89,7 @@ def arm_ends(pose: CarPose, station: str) -> tuple[np.ndarray, np.ndarray]:
 
 def _camera(model: Any, layout: Layout, size: tuple[int, int], driving: bool) -> Any:
     """Camera at the car's right front, far enough away to see it whole."""
-    import mujoco
-
-    camera = mujoco.MjvCamera()
-    camera.type = mujoco.mjtCamera.mjCAMERA_FREE
+    camera = free_camera(model, _HALF_ANGLE)
     camera.azimuth, camera.elevation = (146.0, -11.0) if layout.one_axle else (133.0, -16.0)
     left = layout.middle + (0.0 if layout.one_sided else layout.half_track + 0.12)
     overhang = (0.60, 0.60) if layout.one_axle else (0.66, 0.86)
@@ -128,7 +101,6 @@ def _camera(model: Any, layout: Layout, size: tuple[int, int], driving: bool) ->
     corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
     wide, tall = np.ptp(corners @ across), np.ptp(corners @ np.cross(across, ahead))
     camera.lookat[:] = (low + high) / 2 + 0.03 * wide * across + [0.0, 0.0, 0.16]
-    model.vis.global_.fovy = 2 * _HALF_ANGLE
     needed = max(1.5 * tall, 0.99 * wide * size[1] / size[0])
     camera.distance = needed / 2 / np.tan(np.radians(_HALF_ANGLE)) + np.ptp(corners @ ahead) / 4
     return camera

@@ -21,10 +21,10 @@ ARM_HEIGHT = 0.26
 _ROAD_EDGE = 0.75
 
 
-def car_spec(run: Run, layout: Layout, colour: str, size: tuple[int, int], window: Window) -> Any:
+def car_spec(run: Run, layout: Layout, colour: str, size: tuple[int, int], window: Window, samples: int = 4) -> Any:
     """MuJoCo specification of the picture of a car; `car_scene.place` says where its bodies go."""
     picture = Picture()
-    studio(picture, size, extent=4.5)
+    studio(picture, size, extent=4.5, samples=samples)
     picture.spec.visual.quality.numslices, picture.spec.visual.quality.numstacks = 24, 8  # plain shapes are small here
     materials(picture, colour)
     bodywork(picture, layout)
@@ -43,30 +43,38 @@ def car_spec(run: Run, layout: Layout, colour: str, size: tuple[int, int], windo
     return picture.spec
 
 
-def _wheels(picture: Picture, run: Run, layout: Layout) -> None:
-    """Wheels as `<station>_wheel`, their outer faces outwards; `<station>_carrier` holds the brake."""
+def wheel_assets(picture: Picture, name: str, radius: float, sections: int = 96) -> list[tuple[str, str]]:
+    """Shapes of a wheel whose unloaded tyre has a radius [m], to be copied: (asset, material)."""
     from vehicles.mjcf import body as shapes
 
-    for name, surface in (("rim", shapes.rim()), ("bolts", shapes.wheel_bolts()), ("disc", shapes.brake_disc())):
-        picture.asset(name, surface)
-    radii: dict[float, str] = {}
+    surfaces = (
+        ("tyre", shapes.tyre(radius, sections), "rubber"),
+        ("marks", shapes.sidewall_marks(radius), "mark"),
+        ("rim", shapes.rim(sections=sections), "alloy"),
+        ("bolts", shapes.wheel_bolts(), "dark"),
+        ("disc", shapes.brake_disc(sections), "steel"),
+    )
+    for part, surface, _ in surfaces:
+        picture.asset(f"{name}{part}", surface)
+    return [(f"{name}{part}", material) for part, _, material in surfaces]
+
+
+def outwards(side: float) -> dict[str, Any]:
+    """Turn of a wheel's shapes so that their outer face looks outwards; `side` is 1 on the left, -1 on the right."""
+    return {"quat": [0, 0, 0, 1] if side > 0 else [1, 0, 0, 0]}
+
+
+def _wheels(picture: Picture, run: Run, layout: Layout) -> None:
+    """Wheels as `<station>_wheel`, their outer faces outwards; `<station>_carrier` holds the brake."""
+    assets: dict[float, list[tuple[str, str]]] = {}
     for station in layout.places:
         radius = round(WHEEL_RADIUS + tyre_deflection(run, station), 4)
-        if radius not in radii:
-            radii[radius] = f"{len(radii)}"
-            picture.asset(f"tyre{radii[radius]}", shapes.tyre(radius))
-            picture.asset(f"marks{radii[radius]}", shapes.sidewall_marks(radius))
+        if radius not in assets:
+            assets[radius] = wheel_assets(picture, f"wheel{len(assets)}_", radius)
         side = layout.side(station)
-        outwards = {"quat": [0, 0, 0, 1] if side > 0 else [1, 0, 0, 0]}
         wheel, carrier = picture.posed(f"{station}_wheel"), picture.posed(f"{station}_carrier")
-        for asset, material in (
-            (f"tyre{radii[radius]}", "rubber"),
-            (f"marks{radii[radius]}", "mark"),
-            ("rim", "alloy"),
-            ("bolts", "dark"),
-            ("disc", "steel"),
-        ):
-            picture.copy(wheel, asset, material, **outwards)
+        for asset, material in assets[radius]:
+            picture.copy(wheel, asset, material, **outwards(side))
         picture.shape(carrier, "box", (0.028, 0.03, 0.06), "caliper", (-0.135, -0.018 * side, 0.05))
         if not layout.one_axle:
             inset = layout.strut.inset

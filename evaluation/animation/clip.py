@@ -2,20 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from susp_mj.errors import InputError
-from susp_mj.names import channel_name
+from susp_mj.names import CORNERS, channel_name
 from susp_mj.run import Run
 
 from ..ride import CONTACT_LOST
 
 _BODY = ("body_displacement", "body_acceleration")
 _WHEEL = ("suspension_deflection", "wheel_load", "road_height")
+_FREE = (
+    "position_x",
+    "position_y",
+    "yaw_angle",
+    "pitch_angle",
+    "roll_angle",
+    "body_displacement",
+    "speed",
+    "lateral_acceleration",
+    "steering_wheel_angle",
+)
+FREE_FACTS = ("cg_x", "cg_height", "wheelbase", "track_front", "track_rear", "wheel_radius_front", "wheel_radius_rear")
+"""Facts of a run without which a car that drives freely cannot be drawn."""
+_FREE_WHEEL = ("wheel_load", "suspension_deflection")
+
+Kind = Literal["quarter", "car", "handling"]
+"""One wheel; a car over a road that passes underneath; a car that drives freely."""
 
 
 @dataclass(frozen=True)
@@ -26,28 +43,64 @@ class Clip:
     run: Run
 
 
-def kind_of(clips: Sequence[Clip]) -> Literal["quarter", "car"]:
-    """Whether runs show one wheel each or several.
+def kind_of(clips: Sequence[Clip]) -> Kind:
+    """Whether runs show one wheel each, cars over a road that passes underneath, or cars that drive freely.
 
     Raises:
-        InputError: a run lacks channels that the picture needs, or the runs are of both kinds.
+        InputError: a run lacks channels that the picture needs, or the runs are of several kinds.
     """
-    for clip in clips:
-        needed = [*_BODY, *(channel_name(station, quantity) for station in stations_of(clip.run) or [""] for quantity in _WHEEL)]
-        missing = [name for name in needed if name not in clip.run]
+    kinds: list[Kind] = [_kind(clip) for clip in clips]
+    for clip, kind in zip(clips, kinds, strict=True):
+        if kind != kinds[0]:
+            pair: dict[str, str] = {kinds[0]: clips[0].label, kind: clip.label}
+            if "handling" in pair:
+                free = pair.pop("handling")
+                text = f"'{free}' drives freely and '{next(iter(pair.values()))}' does not"
+            else:
+                text = f"'{pair['quarter']}' has one wheel and '{pair['car']}' several"
+            raise InputError(f"{text}; show them in two videos", source="video")
+    return kinds[0]
+
+
+def _kind(clip: Clip) -> Kind:
+    """Kind of one run, all channels that its picture needs being there."""
+    run = clip.run
+    model = run.meta.get("model", "the run")
+    if model == "handling" or "position_x" in run:
+        missing = [name for name in needed_when_free(run) if name not in run]
         if missing:
-            model = clip.run.meta.get("model", "the run")
-            raise InputError(f"'{clip.label}': only runs of oscillation models can be shown; {model} has no channel {missing[0]}")
-    quarters = [stations_of(clip.run) == [""] for clip in clips]
-    if any(quarters) and not all(quarters):
-        one, other = clips[quarters.index(True)].label, clips[quarters.index(False)].label
-        raise InputError(f"'{one}' has one wheel and '{other}' several; show them in two videos", source="video")
-    return "quarter" if all(quarters) else "car"
+            raise InputError(f"'{clip.label}': {model} has no channel {missing[0]}, which a video of it needs")
+        facts = run.meta.get("facts", {})
+        unknown = [name for name in FREE_FACTS if not isinstance(facts.get(name), (int, float))]
+        if unknown:
+            raise InputError(f"'{clip.label}': the run does not say its {unknown[0]}, which a video of it needs among its facts")
+        return "handling"
+    needed = [*_BODY, *(channel_name(station, quantity) for station in stations_of(run) or [""] for quantity in _WHEEL)]
+    missing = [name for name in needed if name not in run]
+    if missing:
+        raise InputError(f"'{clip.label}': only runs of oscillation and handling models can be shown; {model} has no channel {missing[0]}")
+    return "quarter" if stations_of(run) == [""] else "car"
+
+
+def needed_when_free(run: Run) -> list[str]:
+    """Channels that the picture of a car that drives freely needs."""
+    wheels = [channel_name(station, quantity) for station in stations_of(run) or CORNERS for quantity in _FREE_WHEEL]
+    return [*_FREE, *wheels]
 
 
 def stations_of(run: Run) -> list[str]:
     """Stations of the wheels in the car's order; an empty name for the only wheel of a quarter car."""
     return list(run.stations("wheel_load"))
+
+
+def features_of(run: Run) -> list[Mapping[str, Any]]:
+    """What the manoeuvre says that its road shows; the circle that a driver is to keep, too."""
+    road, radius = run.meta.get("road"), run.meta.get("manoeuvre", {}).get("radius")
+    given = road.get("features", []) if isinstance(road, Mapping) else []
+    features = [feature for feature in given if isinstance(feature, Mapping)]
+    if "path_deviation" in run and isinstance(radius, (int, float)) and not any(feature.get("kind") == "path" for feature in features):
+        features.append({"kind": "path", "radius": float(radius)})
+    return features
 
 
 def at(run: Run, quantity: str, time: float, default: float | None = None) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,25 +15,38 @@ from ..video import Encoder
 from .car_hud import CarHud
 from .car_scene import CarScene
 from .clip import Clip, kind_of
+from .handling_hud import HandlingHud
+from .handling_scene import HandlingScene
+from .hud import Hud
 from .quarter_hud import QuarterHud
 from .quarter_scene import QuarterScene
+from .scene import Scene
+from .style import Shot, Style
 from .window import Window, window_of
 
-KINDS = {"quarter": (QuarterScene, QuarterHud), "car": (CarScene, CarHud)}
+KINDS: dict[str, tuple[Callable[[Shot, Window], Scene], type[Hud]]] = {
+    "quarter": (QuarterScene, QuarterHud),
+    "car": (CarScene, CarHud),
+    "handling": (HandlingScene, HandlingHud),
+}
 """Scene, and texts around it, of each kind of run that `kind_of` tells apart."""
 
 
-def frames(clips: Sequence[Clip], window: Window, size: tuple[int, int]) -> Iterator[np.ndarray]:
+def frames(clips: Sequence[Clip], window: Window, size: tuple[int, int], style: Style) -> Iterator[np.ndarray]:
     """(height, width, 3) frames one by one; needs a working OpenGL in this process."""
     from PIL import Image
 
     scene_of, hud_of = KINDS[kind_of(clips)]
-    hud = hud_of(clips, window, size)
-    scenes = [scene_of(clip.run, COLOURS[k], (hud.boxes[k].width, hud.boxes[k].height), window) for k, clip in enumerate(clips)]
+    hud = hud_of(clips, window, size, style)
+    scenes: list[Scene] = []
     try:
+        for number, box in enumerate(hud.views):
+            shown = range(len(clips)) if len(hud.views) == 1 else (number,)
+            chosen, colours = tuple(clips[k] for k in shown), tuple(COLOURS[k] for k in shown)
+            scenes.append(scene_of(Shot(chosen, colours, (box.width, box.height), style, clips[0], hud.highest_load), window))
         for time in window.times.tolist():
             frame = hud.background.copy()
-            for scene, box in zip(scenes, hud.boxes, strict=True):
+            for scene, box in zip(scenes, hud.views, strict=True):
                 frame.paste(Image.fromarray(scene.picture(time)), (box.left, box.top))
             hud.draw(frame, time)
             yield np.asarray(frame)
@@ -49,6 +62,6 @@ def film(folder: Path) -> None:
     size = (int(order["size"][0]), int(order["size"][1]))
     window = window_of([clip.run for clip in clips], order["fps"], order["playback"])
     with Encoder(Path(order["path"]), size, order["fps"], {"title": " / ".join(order["labels"])}) as encoder:
-        for number, frame in enumerate(frames(clips, window, size), start=1):
+        for number, frame in enumerate(frames(clips, window, size, Style(**order["style"])), start=1):
             encoder.write(frame.tobytes())
             print(f"done {number / len(window.times):.4f}", flush=True)

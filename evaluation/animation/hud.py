@@ -4,49 +4,58 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
-import numpy as np
-
-from susp_mj.names import channel_name
 from susp_mj.run import Run
 
 from ..colours import COLOURS, LIFTED, rgb
-from ..ride import CONTACT_LOST
-from .chart import Chart
 from .clip import Clip, at
-from .layout import BAND, HEADER, INK, LAYOUT_HEIGHT, PAPER, SOFT, STRIP, Box, mixed, panels, shortened, typeface
+from .layout import BAND, HEADER, INK, LAYOUT_HEIGHT, PAPER, SOFT, STRIP, Box, columns, load_tone, panels, shortened, typeface
+from .style import Style
 from .titles import describe, playback_text, signed
 from .window import Window
+
+
+class Diagram(Protocol):
+    """Something that is drawn under the scenes."""
+
+    def draw(self, frame: Any, time: float) -> None: ...
 
 
 class Hud(ABC):
     """Everything in a frame that is not a scene: header, labels, numbers, load bars and traces.
 
-    A kind of car gives its own `charts` and `gauges`.
+    A kind of car gives its own `charts` and `gauges`. `boxes` are the places of the configurations' labels and gauges, `views`
+    those of the scenes: the same, unless all configurations stand in one scene.
     """
 
     aside: ClassVar[float] = 146.0
     """Width beside a label that the gauges need [px at the layout's height]."""
 
-    def __init__(self, clips: Sequence[Clip], window: Window, size: tuple[int, int]) -> None:
+    def __init__(self, clips: Sequence[Clip], window: Window, size: tuple[int, int], style: Style) -> None:
         self.clips, self.window, self.size = clips, window, size
         self.scale = size[1] / LAYOUT_HEIGHT
-        self.boxes = panels(len(clips), size)
+        ghost = style.layout == "ghost"
+        self.boxes = columns(len(clips), size) if ghost else panels(len(clips), size)
+        self.views = panels(1, size) if ghost else self.boxes
         loads = [load for clip in clips for load in clip.run.stations("wheel_load").values()]
-        self.highest_load = max(float(load.max()) for load in loads)
+        self.highest_load = max(1.0, *(float(load.max()) for load in loads))
         strip = round(STRIP * self.scale)
         half, top = size[0] // 2, size[1] - strip
         self.traces = self.charts(Box(0, top, half, strip), Box(half, top, size[0] - half, strip))
         self.background = self._background()
 
     @abstractmethod
-    def charts(self, left: Box, right: Box) -> list[Chart]:
+    def charts(self, left: Box, right: Box) -> Sequence[Diagram]:
         """Traces under the scenes."""
 
     @abstractmethod
     def gauges(self, draw: Any, run: Run, box: Box, time: float) -> None:
         """Draw what was measured onto the scene of one configuration."""
+
+    def headline(self, run: Run, time: float) -> tuple[str, str, str]:
+        """Name, value and unit of the number that stands below the label."""
+        return "body acceleration", signed(at(run, "body_acceleration", time)), "m/s²"
 
     def _background(self) -> Any:
         from PIL import Image, ImageDraw
@@ -85,17 +94,18 @@ class Hud(ABC):
         label = shortened(clip.label, font, box.width - self.aside * s)
         draw.rounded_rectangle([left, top, left + font.getlength(label) + 24 * s, top + 29 * s], 8 * s, colour)
         draw.text((left + 12 * s, top + 14.5 * s), label, (255, 255, 255), font, anchor="lm")
-        draw.text((left + 2 * s, top + 42 * s), "body acceleration", SOFT, typeface(12.5 * s))
-        value, big = signed(at(run, "body_acceleration", time)), typeface(22 * s, bold=True)
+        name, value, unit = self.headline(run, time)
+        big = typeface(22 * s, bold=True)
+        draw.text((left + 2 * s, top + 42 * s), name, SOFT, typeface(12.5 * s))
         draw.text((left + 2 * s, top + 80 * s), value, INK, big, anchor="ls")
-        draw.text((left + 7 * s + big.getlength(value), top + 80 * s), "m/s²", SOFT, typeface(13 * s), anchor="ls")
+        draw.text((left + 7 * s + big.getlength(value), top + 80 * s), unit, SOFT, typeface(13 * s), anchor="ls")
 
     def bar(self, draw: Any, place: tuple[float, float, float, float], load: float, static: float, lifted: bool) -> float:
         """Wheel load as a bar, green to orange, its frame red while the wheel is off the road; returns where the static load stands."""
         s, full = self.scale, 1.05 * self.highest_load
         left, top, width, height = place
         right, base = left + width, top + height
-        tone = rgb(LIFTED) if lifted else mixed((38, 140, 88), (235, 150, 20), float(np.clip(2 - load / max(static, 1.0), 0.0, 1.0)))
+        tone = rgb(LIFTED) if lifted else load_tone(load, static)
         draw.rounded_rectangle([left, top, right, base], 4 * s, (255, 255, 255), rgb(LIFTED) if lifted else SOFT, max(round(s), 1))
         filled = height * min(load / full, 1.0)
         if filled >= 2 * s + 1:
@@ -112,11 +122,3 @@ class Hud(ABC):
         half = font.getlength(text) / 2 + 16 * s
         draw.rounded_rectangle([x - half, y - 17 * s, x + half, y + 17 * s], 8 * s, rgb(LIFTED))
         draw.text((x, y), text, (255, 255, 255), font, anchor="mm")
-
-
-def lift(run: Run, window: Window, time: float, station: str = "") -> tuple[bool, float]:
-    """Whether a wheel is off the road at any record since the last frame, and how long it has been in the window so far [s]."""
-    off = run[channel_name(station, "wheel_load")] <= CONTACT_LOST
-    latest = (run.time > time - max(window.frame_step, run.step)) & (run.time <= time + 1e-9)
-    past = (run.time >= window.start) & (run.time <= time + 1e-9)
-    return bool(off[latest].any()), float(off[past].sum()) * run.step

@@ -14,7 +14,7 @@ LAYOUT_HEIGHT = 720
 """Frame height [px] that the layout's numbers are meant for; other sizes scale."""
 
 INK, SOFT, RULE, PAPER, BAND = (28, 33, 40), (98, 107, 118), (205, 211, 218), (250, 251, 252), (236, 240, 244)
-HEADER, STRIP = 50, 196
+HEADER, STRIP, COLUMN = 50, 196, 336
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,15 @@ def panels(count: int, size: tuple[int, int]) -> list[Box]:
     return boxes
 
 
+def columns(count: int, size: tuple[int, int]) -> list[Box]:
+    """Where labels and gauges go if all configurations stand in one scene: one at its left edge and one at its right."""
+    whole = panels(1, size)[0]
+    width = min(round(COLUMN * size[1] / LAYOUT_HEIGHT), whole.width // count)
+    return [
+        Box(whole.left + (whole.width - width) * number // max(count - 1, 1), whole.top, width, whole.height) for number in range(count)
+    ]
+
+
 @cache
 def typeface(height: float, bold: bool = False) -> Any:
     """DejaVu Sans, which matplotlib brings, in a height [px]."""
@@ -66,6 +75,11 @@ def mixed(colour: Sequence[int], ground: Sequence[int], share: float) -> tuple[i
     """A colour laid over a ground with a share from 0 to 1."""
     red, green, blue = (round(share * a + (1 - share) * b) for a, b in zip(colour, ground, strict=True))
     return red, green, blue
+
+
+def load_tone(load: float, static: float) -> tuple[int, int, int]:
+    """Colour of a wheel load: green up to the static load, orange from twice that on."""
+    return mixed((38, 140, 88), (235, 150, 20), float(np.clip(2 - load / max(static, 1.0), 0.0, 1.0)))
 
 
 def spans(flags: np.ndarray) -> list[tuple[int, int]]:

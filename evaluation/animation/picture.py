@@ -9,6 +9,11 @@ import numpy as np
 
 from ..colours import rgb
 
+SUN = np.array([-0.36, 0.5, -1.0])
+"""Direction in which the light falls."""
+SUN_COURSE = float(np.arctan2(SUN[1], SUN[0]))
+"""Its course over the ground [rad]."""
+
 
 class Picture:
     """A MuJoCo specification of shapes without mass or contact."""
@@ -19,8 +24,25 @@ class Picture:
         self.types = mujoco.mjtGeom
         self.spec = mujoco.MjSpec()
 
-    def material(self, name: str, colour: Sequence[float], specular: float = 0.2, shininess: float = 0.3) -> None:
-        self.spec.add_material(name=name, rgba=[*colour, 1.0] if len(colour) == 3 else list(colour), specular=specular, shininess=shininess)
+    def material(self, name: str, colour: Sequence[float], specular: float = 0.2, shininess: float = 0.3, *, emission: float = 0.0) -> None:
+        tone = [*colour, 1.0] if len(colour) == 3 else list(colour)
+        self.spec.add_material(name=name, rgba=tone, specular=specular, shininess=shininess, emission=emission)
+
+    def glossy(self, name: str, colour: Sequence[float], share: float, alpha: float = 1.0) -> None:
+        """A material that mirrors ground, horizon and sky by a share from 0 to 1, baked into a texture over the upward slope."""
+        import mujoco
+
+        upward = np.linspace(-1.0, 1.0, 256)[:, None]
+        sky = np.array([0.66, 0.76, 0.88]) + np.exp(-np.abs(upward - 0.04) / 0.20) * np.array([0.34, 0.24, 0.12])
+        above = 1 / (1 + np.exp(-(upward - 0.03) / 0.03))
+        around = above * sky + (1 - above) * np.array([0.24, 0.25, 0.26])
+        mirrored = share * (0.25 + 0.75 * (1 - np.abs(upward)) ** 2)
+        tones = (1 - mirrored) * np.array(colour) * (0.82 + 0.18 * upward) + mirrored * around
+        image = np.repeat((np.clip(tones, 0, 1) * 255).astype(np.uint8)[:, None, :], 8, axis=1)
+        texture = self.spec.add_texture(name=name, type=mujoco.mjtTexture.mjTEXTURE_2D, width=8, height=256, nchannel=3)
+        texture.data = image.tobytes()
+        material = self.spec.add_material(name=name, rgba=[1, 1, 1, alpha], specular=0.5, shininess=0.75)
+        material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name
 
     def body(self, name: str, height: float, axis: Sequence[float], parent: Any = None) -> Any:
         """A body on a slide joint of the same name."""
@@ -57,11 +79,16 @@ class Picture:
         self.copy(body, name, material, pos, name=name)
 
     def asset(self, name: str, surface: Any) -> None:
-        """Triangles that several bodies show."""
+        """Triangles that several bodies show; with normals of their own they can wear a `glossy` material."""
         import mujoco
 
         mesh = self.spec.add_mesh(name=name, inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL)
         mesh.uservert, mesh.userface = surface.vertices.ravel(), surface.faces.ravel()
+        if surface.normals is not None:
+            mesh.usernormal, mesh.userfacenormal = surface.normals.ravel(), surface.faces.ravel()
+            upward = 0.5 + 0.49 * np.clip(surface.normals[:, 2], -1.0, 1.0)
+            mesh.usertexcoord = np.column_stack([np.full(len(upward), 0.5), upward]).ravel()
+            mesh.userfacetexcoord = surface.faces.ravel()
 
     def copy(self, body: Any, asset: str, material: str, pos: Sequence[float] = (0, 0, 0), **more: Any) -> None:
         """One more of an `asset`."""
@@ -70,14 +97,22 @@ class Picture:
         )
 
 
-def studio(picture: Picture, size: tuple[int, int], extent: float = 2.0) -> None:
-    """Light, sky and fog; the fog begins at several times the `extent` [m] of what is shown."""
+def studio(picture: Picture, size: tuple[int, int], extent: float = 2.0, samples: int = 4, *, sun: bool = True) -> None:
+    """Light, sky and fog.
+
+    Args:
+        picture: what is lit.
+        size: (width, height) of the picture [px].
+        extent: of what is shown; the fog begins at several times that [m].
+        samples: of every pixel.
+        sun: whether there is a light that stands still.
+    """
     import mujoco
 
     spec = picture.spec
     look = spec.visual
     look.global_.offwidth, look.global_.offheight = size
-    look.quality.offsamples = 4
+    look.quality.offsamples = samples
     look.map.znear, look.map.zfar = 0.05, 40.0
     look.map.fogstart, look.map.fogend, look.map.haze = 4.5, 10.0, 0.0
     look.rgba.fog = look.rgba.haze = [0.90, 0.925, 0.95, 1.0]
@@ -92,10 +127,19 @@ def studio(picture: Picture, size: tuple[int, int], extent: float = 2.0) -> None
         width=256,
         height=1536,
     )
-    spec.worldbody.add_light(
+    if sun:
+        sunlight(spec.worldbody, 5.2)
+
+
+def sunlight(body: Any, distance: float) -> None:
+    """Light from the right, from so far away [m] above the `body` that it hangs on."""
+    import mujoco
+
+    towards = SUN / np.linalg.norm(SUN)
+    body.add_light(
         type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
-        pos=[1.6, -2.6, 4.2],
-        dir=[-0.36, 0.5, -1.0],
+        pos=(-distance * towards).tolist(),
+        dir=towards.tolist(),
         diffuse=[0.62, 0.61, 0.58],
         specular=[0.5, 0.5, 0.5],
         castshadow=False,

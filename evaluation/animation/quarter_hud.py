@@ -9,8 +9,9 @@ from susp_mj.run import Run
 from ..colours import LIFTED, rgb
 from .chart import Chart
 from .clip import at
-from .hud import Hud, lift
+from .hud import Hud
 from .layout import INK, PAPER, SOFT, Box, typeface
+from .window import lift
 
 
 class QuarterHud(Hud):

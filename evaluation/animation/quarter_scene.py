@@ -11,6 +11,8 @@ from susp_mj.run import Run
 
 from .clip import at, slope_at, speed_of, wheel_height
 from .quarter_shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
+from .scene import Scene, free_camera, settle
+from .style import Shot
 from .window import Window
 
 HALF_ANGLE = 8.0
@@ -56,49 +58,33 @@ def pose_at(run: Run, time: float) -> Pose:
     )
 
 
-class QuarterScene:
-    """Picture of one quarter car, driving over its road or standing on a test rig; one OpenGL context each.
+class QuarterScene(Scene):
+    """Picture of one quarter car, driving over its road or standing on a test rig.
 
     Args:
-        run: what to show.
-        colour: of the bodywork, ``#rrggbb``.
-        size: (width, height) of the picture [px].
+        shot: what to show.
         window: stretch of the run, for the length of the road.
     """
 
-    def __init__(self, run: Run, colour: str, size: tuple[int, int], window: Window) -> None:
-        import mujoco
+    def __init__(self, shot: Shot, window: Window) -> None:
+        self.run = shot.clips[0].run
+        super().__init__(quarter_spec(self.run, shot.colours[0], shot.size, window, shot.style.samples), shot.size)
+        self.camera = _camera(self.model, shot.size)
 
-        self.run = run
-        self.model = quarter_spec(run, colour, size, window).compile()
-        self.data = mujoco.MjData(self.model)
-        self.renderer = mujoco.Renderer(self.model, size[1], size[0])
-        self.renderer.scene.flags[mujoco.mjtRndFlag.mjRND_FOG] = 1
-        self.camera = _camera(self.model, size)
+    def pose(self, time: float) -> None:
+        place(self.model, self.data, pose_at(self.run, time))
 
-    def picture(self, time: float) -> np.ndarray:
-        """(height, width, 3) picture at a time of the run [s]."""
-        pose = pose_at(self.run, time)
-        place(self.model, self.data, pose)
-        self.renderer.update_scene(self.data, self.camera)
-        stretch_coil(self.model, self.data, self.renderer.scene, pose)
-        return self.renderer.render()
-
-    def close(self) -> None:
-        """Free the OpenGL context."""
-        self.renderer.close()
+    def stage(self, time: float) -> None:
+        super().stage(time)
+        stretch_coil(self.model, self.data, self.renderer.scene, pose_at(self.run, time))
 
 
 def place(model: Any, data: Any, pose: Pose) -> None:
-    """Put every part of the picture in its place; lights and cameras too, or the scene goes dark."""
-    import mujoco
-
+    """Put every part of the picture in its place."""
     joints = {"body": pose.body, "wheel": pose.wheel, "spin": pose.spin, "road": -pose.travelled, "plate": pose.road}
     for joint, value in {**joints, "slope": -float(np.arctan(pose.slope))}.items():
         data.joint(joint).qpos[0] = value
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)
-    mujoco.mj_camlight(model, data)
+    settle(model, data)
 
 
 def stretch_coil(model: Any, data: Any, scene: Any, pose: Pose) -> None:
@@ -118,13 +104,9 @@ def stretch_coil(model: Any, data: Any, scene: Any, pose: Pose) -> None:
 
 def _camera(model: Any, size: tuple[int, int]) -> Any:
     """Camera at the car's right front, far enough away to see it whole."""
-    import mujoco
-
-    camera = mujoco.MjvCamera()
-    camera.type = mujoco.mjtCamera.mjCAMERA_FREE
+    camera = free_camera(model, HALF_ANGLE)
     camera.lookat[:] = LOOK_AT
     camera.azimuth, camera.elevation = 101.0, -8.0
-    model.vis.global_.fovy = 2 * HALF_ANGLE
     needed = max(VIEW[1], VIEW[0] * size[1] / size[0])
     camera.distance = needed / 2 / np.tan(np.radians(HALF_ANGLE))
     return camera

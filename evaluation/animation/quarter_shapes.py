@@ -21,10 +21,10 @@ LENGTH = 1.12
 LOWER_SEAT = 0.37
 
 
-def quarter_spec(run: Run, colour: str, size: tuple[int, int], window: Window) -> Any:
+def quarter_spec(run: Run, colour: str, size: tuple[int, int], window: Window, samples: int = 4) -> Any:
     """MuJoCo specification of the picture of a quarter car; joints ``body``, ``wheel``, ``spin``, ``road`` and ``plate``."""
     picture = Picture()
-    studio(picture, size)
+    studio(picture, size, samples=samples)
     materials(picture, colour)
     _bodywork(picture)
     _wheel(picture, WHEEL_RADIUS + tyre_deflection(run))

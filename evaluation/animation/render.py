@@ -7,13 +7,16 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 
 from susp_mj.errors import InputError, SuspMjError
+from susp_mj.files import whole
 
 from ..colours import COLOURS
-from ..video import NO_FFMPEG, NO_GL, ffmpeg_program, gl_backend, gl_environment, unfinished_file
+from ..video import NO_FFMPEG, NO_GL, ffmpeg_program, gl_backend, gl_environment
 from .clip import Clip, kind_of
+from .style import Style
 
 
 def can_render() -> str | None:
@@ -30,9 +33,12 @@ def render_video(
     size: tuple[int, int] = (1280, 720),
     fps: int = 30,
     playback: float | None = None,
+    camera: str | None = None,
+    layout: str = "side_by_side",
+    quality: str = "fine",
     progress: Callable[[float], None] | None = None,
 ) -> Path:
-    """Draw the runs side by side into an MP4 file; it appears complete or not at all. Same runs, same file.
+    """Draw the runs into an MP4 file; it appears complete or not at all. Same runs, same file.
 
     Args:
         clips: one to eight configurations; their order fixes their colours.
@@ -40,16 +46,20 @@ def render_video(
         size: (width, height) [px], both even.
         fps: frames per second of the video.
         playback: seconds of the run per second of video; None chooses slow motion that suits the runs.
+        camera: ``chase``, ``front`` or ``side`` of a car that drives freely; None chooses what suits the manoeuvre.
+        layout: ``side_by_side``, or ``ghost`` for cars that drive freely: in one scene, all but the first translucent.
+        quality: ``fine``, or ``draft``: coarser shapes and jagged edges, twice as fast.
         progress: called with the fraction done.
 
     Raises:
         InputError: a value that is not allowed, or a place that cannot be written.
         SuspMjError: this machine cannot render, or rendering failed.
     """
-    path = Path(path)
-    _check(clips, size, fps, playback)
-    unfinished = unfinished_file(path)
-    try:
+    path, style = Path(path), Style(camera, layout, quality)
+    _check(clips, path, size, fps, playback)
+    style.check(clips)
+    with whole(path) as unfinished:
+        unfinished.write_bytes(b"")
         missing = can_render()
         if missing:
             raise SuspMjError(missing)
@@ -60,18 +70,18 @@ def render_video(
                 "size": size,
                 "fps": fps,
                 "playback": playback,
+                "style": asdict(style),
             }
             for number, clip in enumerate(clips):
                 clip.run.save(Path(folder, f"{number}.nc"))
             Path(folder, "order.json").write_text(json.dumps(order), encoding="utf-8")
             _film_in_process(folder, progress)
-        unfinished.replace(path)
-    finally:
-        unfinished.unlink(missing_ok=True)
     return path
 
 
-def _check(clips: Sequence[Clip], size: tuple[int, int], fps: int, playback: float | None) -> None:
+def _check(clips: Sequence[Clip], path: Path, size: tuple[int, int], fps: int, playback: float | None) -> None:
+    if path.suffix.lower() != ".mp4":
+        raise InputError("is not allowed; the name of a video must end in .mp4", source=str(path))
     if not 1 <= len(clips) <= len(COLOURS):
         raise InputError(f"{len(clips)} configurations are not allowed; from 1 to {len(COLOURS)} fit a frame", source="video")
     if any(side < 160 or side > 4096 or side % 2 for side in size):

@@ -17,17 +17,25 @@ _PARAMETERS = {
     "rise_time": ("within {:.0f} ms", 1000.0),
     "start_frequency": ("from {:.3g} Hz", 1.0),
     "end_frequency": ("to {:.3g} Hz", 1.0),
+    "frequency": ("{:.3g} Hz", 1.0),
+    "radius": ("radius {:.4g} m", 1.0),
+    "rate": ("{:.3g}°/s", 180 / math.pi),
+    "pedal": ("pedal {:.0f} %", 100.0),
+    "friction": ("friction × {:.3g}", 1.0),
+    "wind": ("wind {:.3g} m/s", 1.0),
+    "slope": ("slope {:.3g} %", 100.0),
     "speed": ("at {:.3g} km/h", 3.6),
 }
-_TITLES = {"bump": "Bump", "step": "Road step", "vertical_sweep": "Vertical sine sweep"}
+_STEERED = {"amplitude": ("amplitude {:.3g}°", 180 / math.pi)}
+"""Instead of those above where it is the steering wheel that is moved."""
+_TITLES = {"bump": "Bump", "step": "Road step", "vertical_sweep": "Vertical sine sweep", "split_mu": "Split friction"}
 
 
 def describe(manoeuvre: Mapping[str, Any]) -> str:
     """One line that says what is done: ``Bump · +80 mm · 2 m long · at 50 km/h``."""
     kind = str(manoeuvre.get("kind", "run"))
-    parts = [
-        text.format(manoeuvre[key] * factor) for key, (text, factor) in _PARAMETERS.items() if isinstance(manoeuvre.get(key), (int, float))
-    ]
+    known = _PARAMETERS | (_STEERED if kind.endswith("steer") else {})
+    parts = [text.format(manoeuvre[key] * factor) for key, (text, factor) in known.items() if isinstance(manoeuvre.get(key), (int, float))]
     if "road_class" in manoeuvre:
         parts.insert(0, f"class {manoeuvre['road_class']}")
     return "  ·  ".join([_TITLES.get(kind, kind.replace("_", " ").capitalize()), *parts]).replace("-", "−")

@@ -22,8 +22,9 @@ from .surroundings import deviation, road_at, wanted_angle
     MARK, LENGTH, FREEDOMS, RIG, STEERING_WHEEL, DRIVER, SPEED_TARGET, SPEED_CONTROL, ENGINE, BRAKE, WIND_X, WIND_Y, HEAVE_TARGET,
     ROLL_TARGET, PITCH_TARGET, STEERING_RATIO, STEERING_LIMIT, WHEELBASE, REAR_AXLE_X, GROUND_Z, CONTROL_GAIN, CONTROL_INTEGRAL,
     AIR_PRESSURE, DRAG, LIFT_FRONT, LIFT_REAR, SIDE_FORCE, YAW_MOMENT, AIR_X, DRIVEN_REAR, ENGINE_INERTIA, IDLE_SPEED, IDLE_GAIN,
-    IDLE_TORQUE, COUPLING, CONVERTER, COUPLING_LIMIT, FINAL_DRIVE, EFFICIENCY, SHIFT_UP, SHIFT_DOWN, SHIFT_TIME, GEARS, GEAR_1,
-) = range(44)
+    IDLE_TORQUE, COUPLING, CONVERTER, COUPLING_LIMIT, FINAL_DRIVE, EFFICIENCY, SHIFT_UP, SHIFT_DOWN, SHIFT_TIME, ENGINE_LIMIT,
+    GEARS, GEAR_1,
+) = range(HEAD.index("gear_1") + 1)
 (
     FULL_TORQUE, DRAG_TORQUE, DESIGN_X, DESIGN_Y, DESIGN_Z, RIG_STIFFNESS, RIG_DAMPING, RIG_RATE_X, RIG_RATE_Y, RIG_RATE_Z,
     RIG_DAMPING_X, RIG_DAMPING_Y, RIG_DAMPING_Z,
@@ -56,7 +57,8 @@ SLOW_SLIP = 0.07
 HELD_SLIP, HELD_TIME = 0.08, 0.05
 """Coming to rest, a tyre that slid is wound up as far as its friction carries and no further: slips beyond the first fade within the second
 [s]. As a spring of the relaxation length a slip of 1 would throw the car back by half a metre."""
-SMALLEST_RELAXATION = 0.05
+SMALLEST_RELAXATION, SMALLEST_TIME = 0.05, 7e-4
+"""Relaxation length [m] and time [s] of a tyre that hardly touches the road, however fast it slips: what steps of 1 ms integrate."""
 BUSHING_TIME = 0.005
 """Time constant [s] of the elastic suspension's answer to forces."""
 BRISTLE, BRISTLE_TIME, BRISTLE_DAMPING = 0.02, 1e-3, 2e-3
@@ -64,6 +66,10 @@ BRISTLE, BRISTLE_TIME, BRISTLE_DAMPING = 0.02, 1e-3, 2e-3
 HOLD_PEDAL = 0.3
 """Brake pedal with which the speed controller holds the car where its target is zero."""
 PARKED = 0.01
+LIMITER_WIDTH = 0.03
+"""The limiter takes the torque away while the engine's speed exceeds the map's last by this share."""
+OVERTURNED = 0.35
+"""Cosine of the body's tilt beyond which the car has fallen over."""
 WIND_UP = 1.2
 """The controller stops integrating where it asks for this share of what the engine gives."""
 
@@ -186,9 +192,9 @@ def place_of(base, number):
 
 @plain
 def slip_rate(slip, sliding, rolling, relaxation, largest):
-    """As `elements.tyres.slip.slip_rate`."""
+    """As `elements.tyres.slip.slip_rate`, for a wheel that spins in the air too."""
     speed = max(abs(rolling), abs(sliding) / largest)
-    return (sliding - speed * slip) / max(relaxation, SMALLEST_RELAXATION)
+    return (sliding - speed * slip) / max(relaxation, SMALLEST_RELAXATION, speed * SMALLEST_TIME)
 
 
 @plain
@@ -284,8 +290,9 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
             pedal = 0.0 if trimming else demanded
     if not trimming:
         pedal = min(max(pedal, 0.0), 1.0)
+    limiter = 1.0 - min(max((engine_speed / head[ENGINE_LIMIT] - 1.0) / LIMITER_WIDTH, 0.0), 1.0)
     idle = min(max(head[IDLE_GAIN] * (head[IDLE_SPEED] - engine_speed), 0.0), head[IDLE_TORQUE])
-    torque = drag + pedal * (full - drag) + idle
+    torque = drag + limiter * pedal * (full - drag) + idle
     # a converter at standstill, locked up by a viscous clutch once the shaft turns faster than idling; a shift closes it anew
     lock = min(max(2.0 * input_speed / head[IDLE_SPEED] - 1.6, 0.0), 1.0)
     since = (time - signals[SHIFT_BEGAN]) / max(head[SHIFT_TIME], 1e-3)
@@ -551,7 +558,7 @@ def car_forces(model, data, road, path):
     r = (rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8])
     origin, velocity, spin = (places[0], places[1], places[2]), (v[0], v[1], v[2]), (v[3], v[4], v[5])
     spin_world = turned(r, spin)
-    speed = (velocity[0] * r[0] + velocity[1] * r[3]) / math.sqrt(r[0] * r[0] + r[3] * r[3])
+    speed = math.copysign(math.sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]), velocity[0] * r[0] + velocity[1] * r[3])
     signals[SPEED] = speed
     angle, angle_rate = steering(head, model, data, signals, path, origin, math.atan2(r[3], r[0]), speed)
     drive = 0.0
@@ -579,6 +586,8 @@ def car_forces(model, data, road, path):
         more = turned(r, more)
     else:
         more, twist = held(head, data, r, origin, velocity, spin)
+    if r[8] < OVERTURNED:
+        force = (math.inf, math.inf, math.inf)  # the run ends here
     for i in range(3):
         applied[i] = force[i] + more[i]
         applied[3 + i] = moment[i] + twist[i]

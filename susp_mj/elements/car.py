@@ -31,11 +31,12 @@ HEAD = (
     # speed controller
     "control_gain", "control_integral",
     # air
-    "air_pressure", "drag", "lift_front", "lift_rear", "side", "yaw", "air_x",
+    "air_pressure", "drag", "lift_front", "lift_rear", "side_force", "yaw_moment", "air_x",
     # power train
     "driven_rear", "engine_inertia", "idle_speed", "idle_gain", "idle_torque", "coupling", "converter", "coupling_limit",
     "final_drive",
-    "efficiency", "shift_up", "shift_down", "shift_time", "gears", *(f"gear_{i}" for i in range(1, MOST_GEARS + 1)), "full_torque",
+    "efficiency", "shift_up", "shift_down", "shift_time", "engine_limit",
+    "gears", *(f"gear_{i}" for i in range(1, MOST_GEARS + 1)), "full_torque",
     "drag_torque",
     # rig that holds the body
     "design_x", "design_y", "design_z", "rig_stiffness", "rig_damping", "rig_rate_x", "rig_rate_y", "rig_rate_z", "rig_damping_x",

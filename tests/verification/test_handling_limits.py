@@ -133,7 +133,7 @@ def test_roll_and_load_transfer_of_the_closed_form(tmp_path):
 
 
 def test_a_turning_wheel_tilts_the_car_by_its_gyroscopic_moment(tmp_path):
-    """Heavier wheels by 4 J: the load transfer grows by ``4 dJ w r / t``, w their speed and r the yaw rate, and by what this rolls the body."""
+    """Heavier wheels by 4 dJ: the load transfer grows by ``4 dJ w r / t``, w their speed and r the yaw rate."""
     runs = []
     for inertia in (0.05, 3.05):
         (tmp_path / f"{inertia}").mkdir()

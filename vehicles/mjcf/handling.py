@@ -36,7 +36,7 @@ _CONTROL_GAIN, _CONTROL_INTEGRAL = 1.5, 0.5  # 1/s, 1/s²: force of the speed co
 _STALL_SPEED = 220.0  # rad/s at which the converter holds the engine's largest torque with the car at rest
 _IDLE_GAIN = 10.0  # N m s/rad of the idle governor
 _STEER_ROWS = 17
-_WHEEL_MASS_SHARE = 0.5
+_WHEEL_MASS_SHARE, _KNUCKLE_MASS = 0.5, 1e-3
 
 
 @dataclass(frozen=True)
@@ -141,14 +141,15 @@ def _add_wheel(builder: ModelBuilder, vehicle: Vehicle, chassis: Any, wheel: _Wh
     """Carrier on its slide, knuckle on the steering hinge, wheel on its spin."""
     corner, mass = wheel.corner, wheel.corner.axle.unsprung_mass or 0.0
     spin = corner.axle.wheel_inertia or 0.0
-    carrier = chassis.add_body(name=corner.name("carrier"), pos=[corner.x, corner.y, z], mass=(1 - _WHEEL_MASS_SHARE) * mass, **POINT_MASS)
+    left = (1 - _WHEEL_MASS_SHARE) * mass - (_KNUCKLE_MASS if wheel.front else 0.0)
+    carrier = chassis.add_body(name=corner.name("carrier"), pos=[corner.x, corner.y, z], mass=left, **POINT_MASS)
     builder.joint(carrier, corner.name("travel"), "slide", [0, 0, 1])
     holder = carrier
     if wheel.front:
         assert vehicle.steering is not None
         upright = max(vehicle.steering.knuckle_inertia - 0.55 * spin, 0.05 * vehicle.steering.knuckle_inertia)
         inertia = {**POINT_MASS, "inertia": [upright] * 3}
-        holder = carrier.add_body(name=corner.name("knuckle"), mass=1e-3, **inertia)
+        holder = carrier.add_body(name=corner.name("knuckle"), mass=_KNUCKLE_MASS, **inertia)
         builder.joint(holder, corner.name("steer"), "hinge", [0, 0, 1])
     inertia = {**POINT_MASS, "inertia": [0.55 * spin, spin, 0.55 * spin]}
     rolling = holder.add_body(name=corner.name("wheel"), mass=_WHEEL_MASS_SHARE * mass, **inertia)
@@ -236,8 +237,8 @@ def _head(vehicle: Vehicle, mass: float, place: tuple[float, float, float]) -> d
         "drag": air.drag,
         "lift_front": air.lift_front,
         "lift_rear": air.lift_rear,
-        "side": air.side,
-        "yaw": air.yaw,
+        "side_force": air.side,
+        "yaw_moment": air.yaw,
         "air_x": -vehicle.wheelbase / 2 - place[0],
         "driven_rear": float(train.driven == "rear"),
         "engine_inertia": train.inertia,
@@ -252,6 +253,7 @@ def _head(vehicle: Vehicle, mass: float, place: tuple[float, float, float]) -> d
         "shift_up": train.shift_up,
         "shift_down": train.shift_down,
         "shift_time": train.shift_time,
+        "engine_limit": train.speed[-1],
         "gears": float(len(train.gears)),
         **{f"gear_{i}": ratio for i, ratio in enumerate(train.gears, 1)},
         "design_x": place[0],

@@ -307,7 +307,7 @@ def equivalent_tangent(angle: float, ratio: float) -> float:
     return math.sqrt(square / max(1.0 - square, 1e-30) + ratio * ratio)
 
 
-def magic_formula_contact(  # noqa: PLR0915 - one long formula, in the order in which the processor overlaps it best
+def magic_formula_contact(  # noqa: PLR0915, C901 - one long formula, in the order in which the processor overlaps it best
     kappa: float,
     tan_alpha: float,
     camber: float,
@@ -377,7 +377,7 @@ def magic_formula_contact(  # noqa: PLR0915 - one long formula, in the order in 
     # the inner arc tangents, the outer ones, the curves
     in_x, in_y, in_t, skew = arctangent(x), arctangent(y), arctangent(t), arctangent(b_t * p[QCZ1] * slip_t)
     in_a, in_k = a, k
-    if e_a != 0.0 or e_k != 0.0:
+    if e_a != 0.0 or e_k != 0.0:  # often both are zero
         in_a, in_k = arctangent(a), arctangent(k)
     e_t = p[QEZ1] + (p[QEZ2] + p[QEZ3] * dfz) * dfz
     e_t = min(1.0, e_t * (1.0 + (p[QEZ4] + p[QEZ5] * gamma) * (2.0 / math.pi) * skew))

@@ -1,0 +1,87 @@
+"""How a video is drawn: from where, how the configurations share the frame, and how fine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from susp_mj.errors import InputError, choices
+
+from .clip import Clip, kind_of
+
+CAMERAS = ("chase", "front", "side")
+"""Behind the car, ahead of it on the inside of the bend, beside it."""
+LAYOUTS = ("side_by_side", "ghost")
+"""A scene for each configuration, or one scene in which all but the first are translucent."""
+QUALITIES = ("draft", "fine")
+MOST_GHOSTS = 2
+"""Configurations that one scene can show."""
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a video is drawn.
+
+    Attributes:
+        camera: one of `CAMERAS`; None chooses what suits the manoeuvre.
+        layout: one of `LAYOUTS`.
+        quality: ``draft`` draws coarser shapes with jagged edges, twice as fast as ``fine``.
+    """
+
+    camera: str | None = None
+    layout: str = "side_by_side"
+    quality: str = "fine"
+
+    @property
+    def fine(self) -> bool:
+        """Whether shapes are fine and edges smoothed."""
+        return self.quality == "fine"
+
+    @property
+    def samples(self) -> int:
+        """Samples of every pixel, 0 for one."""
+        return 4 if self.fine else 0
+
+    def check(self, clips: Sequence[Clip]) -> None:
+        """Whether these clips can be drawn so.
+
+        Raises:
+            InputError: an unknown name, or something that only runs of a car that drives freely can have.
+        """
+        for key, value, allowed in (
+            ("camera", self.camera, CAMERAS),
+            ("layout", self.layout, LAYOUTS),
+            ("quality", self.quality, QUALITIES),
+        ):
+            if value not in allowed and not (key == "camera" and value is None):
+                raise InputError(f"'{value}' unknown; {choices(allowed, str(value))}", key=key, source="video")
+        free = kind_of(clips) == "handling"
+        if self.camera is not None and not free:
+            raise InputError(
+                f"'{self.camera}' is for runs of model handling; other cars are drawn from one place", key="camera", source="video"
+            )
+        if self.layout == "ghost" and not free:
+            raise InputError("'ghost' is for runs of model handling; other cars stand side by side", key="layout", source="video")
+        if self.layout == "ghost" and len(clips) > MOST_GHOSTS:
+            raise InputError(f"'ghost' shows up to {MOST_GHOSTS} configurations, not {len(clips)}", key="layout", source="video")
+
+
+@dataclass(frozen=True)
+class Shot:
+    """What one scene shows.
+
+    Attributes:
+        clips: the configurations in it, the first one solid.
+        colours: theirs, ``#rrggbb``.
+        size: (width, height) of the picture [px].
+        style: see `Style`.
+        leader: the video's first configuration, after which cameras are chosen.
+        highest_load: of all wheels of all configurations of the video [N].
+    """
+
+    clips: tuple[Clip, ...]
+    colours: tuple[str, ...]
+    size: tuple[int, int]
+    style: Style
+    leader: Clip
+    highest_load: float
