@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
@@ -24,11 +24,12 @@ from susp_mj.errors import InputError, SuspMjError, choices
 from susp_mj.linear import Linear, linearise
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
+from susp_mj.names import AXLES
 from susp_mj.plant import Plant
 from susp_mj.run import Run
 from susp_mj.simulation import simulate
 from susp_mj.units import Quantity, to_si
-from vehicles.mjcf import MODELS, build
+from vehicles.mjcf import HANDLING, MODELS, build
 from vehicles.vehicle import DESIGN_LOAD, Vehicle, load_vehicle, read_toml
 
 FOLDER = Path(__file__).parent / "cases"
@@ -75,6 +76,22 @@ class Setting(Description):
         return [self.model_copy(update={"name": f"{self.name}, {load}", "load": load}) for load in self.load]
 
 
+class Film(Description):
+    """How a case's video is drawn; see `evaluation.animation.render_video`.
+
+    Attributes:
+        camera: ``chase``, ``front`` or ``side`` of a car that drives freely; by default what suits the manoeuvre.
+        layout: ``side_by_side``, or ``ghost``: cars that drive freely in one scene, the second translucent.
+        quality: ``draft`` or ``fine``; by default a draft of cars that drive freely, fine pictures of everything else.
+        playback: seconds of the run per second of video.
+    """
+
+    camera: Literal["chase", "front", "side"] | None = None
+    layout: Literal["side_by_side", "ghost"] = "side_by_side"
+    quality: Literal["draft", "fine"] | None = None
+    playback: Annotated[float, Quantity("", gt=0)] | None = None
+
+
 class Case(Description):
     """A case file.
 
@@ -87,6 +104,7 @@ class Case(Description):
         criteria: bands by number.
         step: integration step [s]; by default 1 ms or what the dampers' mounts need.
         record_every: keep every n-th step; by default one a millisecond.
+        film: how a video is drawn.
     """
 
     title: str
@@ -98,6 +116,7 @@ class Case(Description):
     criteria: dict[str, Band] = Field(default_factory=dict)
     step: Annotated[float, Quantity("s", gt=0)] | None = None
     record_every: int | None = Field(default=None, ge=1)
+    film: Film = Film()
 
     @model_validator(mode="after")
     def _known_names(self) -> Case:
@@ -138,6 +157,13 @@ def load_case(name: str | Path) -> tuple[Case, Path]:
             raise InputError(f"no case '{name}'; {choices(available_cases(), name)}, or give a .toml file", key="case")
         path = FOLDER / f"{name}.toml"
     return validate(Case, read_toml(path), source=path.name), path
+
+
+def with_film(case: Case, camera: str | None, *, ghost: bool, fine: bool) -> Case:
+    """The case with its film as asked for on a command line; what is not asked for stays."""
+    asked = {"camera": camera, "layout": "ghost" if ghost else None, "quality": "fine" if fine else None}
+    film = validate(Film, case.film.model_dump() | {name: value for name, value in asked.items() if value is not None}, source="video")
+    return case.model_copy(update={"film": film})
 
 
 def read_manoeuvre(table: dict[str, Any], source: str = "") -> Manoeuvre:
@@ -194,6 +220,9 @@ def run_case(case: Case, path: Path, progress: Report = lambda task, done: None)
 def _outcome(case: Case, setting: Setting, vehicle: Vehicle, manoeuvre: Manoeuvre, run: Run, numbers: dict[str, Number]) -> Configuration:
     """A run with what a report shows beside it: characteristics, modes, exact amplifications."""
     title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, f"load {setting.load}") if part)
+    if case.model == HANDLING:
+        curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in AXLES]
+        return Configuration(setting.name, title, run, numbers, curves)
     plant = build(vehicle.without_friction(), case.model, str(setting.load), setting.axle)
     axles = dict.fromkeys(travel.key for travel in plant.meaning.travels)
     curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in axles]
@@ -279,7 +308,7 @@ def carry_out(
         simulated = time.perf_counter() - started
         if video:
             try:
-                comparison = replace(comparison, videos=(_make_video(comparison, stage, progress),))
+                comparison = replace(comparison, videos=(_make_video(case, comparison, stage, progress),))
             except SuspMjError as error:
                 no_video = error
         _write_results(comparison, stage, {"simulate_s": round(simulated, 3)}, progress)
@@ -288,11 +317,13 @@ def carry_out(
     return comparison
 
 
-def _make_video(comparison: Comparison, stage: Path, progress: Report) -> str:
+def _make_video(case: Case, comparison: Comparison, stage: Path, progress: Report) -> str:
     from evaluation.animation import Clip, render_video
 
+    film = case.film.model_dump()
+    film["quality"] = film["quality"] or ("draft" if case.model == HANDLING else "fine")
     clips = [Clip(each.name, each.run) for each in comparison.configurations]
-    return render_video(clips, stage / "video.mp4", progress=lambda done: progress("render video", done)).name
+    return render_video(clips, stage / "video.mp4", **film, progress=lambda done: progress("render video", done)).name
 
 
 def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float], progress: Report) -> None:

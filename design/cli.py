@@ -52,12 +52,16 @@ def run(
     case: Annotated[str, typer.Argument(help="Case file, or the name of a shipped case ('susp-mj list').")],
     out: Annotated[Path | None, typer.Option("--out", "-o", help="Folder for the results; default out/CASE.")] = None,
     video: Video = False,
+    camera: Annotated[str | None, typer.Option(help="Of a driving car: chase, front or side.")] = None,
+    ghost: Annotated[bool, typer.Option("--ghost", help="Two driving cars in one scene, the second translucent.")] = False,
+    fine: Annotated[bool, typer.Option("--fine", help="Finer pictures of driving cars, in about half again the time.")] = False,
     strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 if a criterion is not met.")] = False,
 ) -> None:
     """Run a case file: simulate every configuration, evaluate, compare, report."""
-    from .case import load_case
+    from .case import load_case, with_film
 
     loaded, path = load_case(case)
+    loaded = with_film(loaded, camera, ghost=ghost, fine=fine)
     _run(loaded, path, out or Path("out") / path.stem, video=video, strict=strict)
 
 

@@ -73,7 +73,7 @@ LINES = [
     ),
     (
         {"front.kinematics.tow": [0, 0, 0]},
-        "front.kinematics.tow: unknown key; did you mean 'toe'? choose travel, steer, lateral, longitudinal, toe, camber",
+        "front.kinematics.tow: unknown key; did you mean 'toe'? choose travel, steer, lateral, longitudinal, longitudinal_centre, toe, camber",
     ),
     ({"front.compliance.toe": [0, 0, 0]}, "front.compliance.lateral_force: is required by toe"),
     ({"front.compliance.lateral_force": [-1, 0, 1]}, "front.compliance.lateral_force: stands alone; give toe or camber with it"),
@@ -327,7 +327,9 @@ def test_anti_dive_and_anti_squat_of_the_saloon():
     front = slope(car.front.kinematics.path("longitudinal"), car.front.kinematics.travel)
     rear = slope(car.rear.kinematics.path("longitudinal"), car.rear.kinematics.travel)
     assert front * car.brakes.front_share * lever == pytest.approx(0.30, abs=0.02)
-    assert -rear * lever == pytest.approx(0.40, abs=0.02)
+    driven = slope(car.rear.kinematics.path("longitudinal_centre"), car.rear.kinematics.travel)
+    assert -rear * (1 - car.brakes.front_share) * lever == pytest.approx(0.32, abs=0.02)
+    assert -driven * lever == pytest.approx(0.40, abs=0.02)
 
 
 def test_camber_over_steer_is_that_of_an_inclined_axis():

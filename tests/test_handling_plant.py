@@ -407,3 +407,27 @@ def test_rigs_and_axles_that_it_does_not_have(rig, axle):
 
 def test_signals_have_unique_names():
     assert len(set(SIGNALS)) == len(SIGNALS)
+
+
+def test_drive_pushes_along_the_wheel_centres_path_and_brakes_along_the_patchs(saloon):
+    """Work of the forces over the travel: the rear springs' force changes by ``F x'``, x' that of the centre or of the patch.
+
+    The wheel's load less its suspension's forces is what the path carries; weight and inertia of the wheel are in it from the start.
+    """
+    kinematics = load_vehicle("s_class").rear.kinematics
+    origin = list(kinematics.travel).index(0.0)
+    slopes = {
+        name: np.gradient(kinematics.path(name), kinematics.travel)[origin] for name in ("longitudinal", "longitudinal_centre")
+    }
+    assert abs(slopes["longitudinal"]) > 2 * abs(slopes["longitudinal_centre"]) > 0.05
+    turn = (slopes["longitudinal_centre"] - slopes["longitudinal"]) / 0.316
+    off = {"speed_control": [(0.0, 1.0), (0.5, 1.0), (0.501, 0.0)]}
+    for pedal, value in (("accelerator", 0.5), ("brake_pedal", 0.3)):
+        run = simulate(saloon, Drive(duration=2.5, speed=15.0, inputs={pedal: [(0.5, 0.0), (0.8, value)], **off}))
+        parts = sum(run[f"rl_{part}_force"] for part in ("spring", "stop", "damper", "friction", "bar"))
+        carried, force, torque = (
+            each[-300:].mean() - each[0] for each in (run["rl_wheel_load"] - parts, run["rl_longitudinal_force"], run["rl_drive_torque"])
+        )
+        expected = -slopes["longitudinal"] * force - turn * torque
+        assert abs(force) > 500.0
+        assert carried == pytest.approx(expected, abs=0.02 * abs(force)), pedal

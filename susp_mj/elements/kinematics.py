@@ -30,6 +30,9 @@ class Kinematics(Description):
             the left. Empty: toe and camber depend on travel alone. Front axle only.
         lateral: y [m], (n,) movement of the contact patch outwards, 0 at travel 0. Empty: none.
         longitudinal: x [m], (n,) movement of the contact patch forwards, 0 at travel 0. Empty: none.
+        longitudinal_centre: [m], (n,) movement of the wheel centre forwards, 0 at travel 0, where the carrier turns about the
+            lateral axis as it travels. A brake holds the wheel on the carrier, so its force acts along the path of the
+            patch; a drive shaft turns it from the body, so its force acts along the path of the centre. Empty: as the patch.
         toe: [rad], (n,) or (n, m), positive toe-in; adds to the angle from the rack, so the left wheel stands at
             ``steer - toe``. At travel 0 it is the static toe. Empty: none.
         camber: [rad], (n,) or (n, m), to the body, positive with the top outwards. At travel 0 it is the static camber.
@@ -40,6 +43,7 @@ class Kinematics(Description):
     steer: tuple[Angle, ...] = Field(default=(), max_length=100)
     lateral: tuple[Length, ...] = ()
     longitudinal: tuple[Length, ...] = ()
+    longitudinal_centre: tuple[Length, ...] = ()
     toe: AngleTable = ()
     camber: AngleTable = ()
 
@@ -50,7 +54,8 @@ class Kinematics(Description):
         if self.steer:
             check_increasing(self.steer, "steer", "rad", "steer angles")
             origin_of(self.steer, "steer", "rad")
-        for key, path in (("lateral", self.lateral), ("longitudinal", self.longitudinal)):
+        for key in ("lateral", "longitudinal", "longitudinal_centre"):
+            path: tuple[float, ...] = getattr(self, key)
             if path:
                 check_length(path, key, self.travel, "travel")
                 check_zero(path, key, origin, "m", "travel")
@@ -69,9 +74,11 @@ class Kinematics(Description):
             if len(row) != columns:
                 raise wrong(f"a row of {len(row)} is not allowed; the first row has {columns}", f"{key}.{i}")
 
-    def path(self, name: Literal["lateral", "longitudinal"]) -> FloatArray:
-        """Movement [m] of the contact patch at each travel, (n,)."""
-        values = self.lateral if name == "lateral" else self.longitudinal
+    def path(self, name: Literal["lateral", "longitudinal", "longitudinal_centre"]) -> FloatArray:
+        """Movement [m] of the contact patch, or of the wheel centre, at each travel, (n,)."""
+        values: tuple[float, ...] = getattr(self, name)
+        if name == "longitudinal_centre" and not values:
+            values = self.longitudinal
         return np.array(values or [0.0] * len(self.travel))
 
     def angles(self, name: Literal["toe", "camber"]) -> FloatArray:

@@ -339,6 +339,9 @@ def _wheel_tables(wheel: _Wheel) -> dict[str, np.ndarray]:
         "angles": _angle_tables(kinematics.travel, kinematics.steer, kinematics.angles("toe"), kinematics.angles("camber")),
         "tyre_parameters": np.array(wheel.tyre.parameters()),
     }
+    if kinematics.longitudinal_centre:
+        turn = (kinematics.path("longitudinal_centre") - kinematics.path("longitudinal")) / wheel.design_height
+        tables["swing"] = table(kinematics.travel, turn, smooth=True)
     if compliance.lateral_force:
         nothing = [0.0] * len(compliance.lateral_force)
         curves = [compliance.toe or nothing, compliance.camber or nothing]
