@@ -8,26 +8,35 @@ from pathlib import Path
 from typing import Any
 
 from manoeuvres import MANOEUVRES
+from manoeuvres.driving import Driving
 from susp_mj.description import validate
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.units import unit_of
-from vehicles.mjcf import MODELS
+from vehicles.mjcf import HANDLING, K_AND_C, MODELS
 from vehicles.vehicle import DESIGN_LOAD
 
 from .case import Case
 
 DEFAULT_VEHICLE, DEFAULT_MODEL = "chapter3", "quarter_2dof"
+WHOLE_CAR, WHOLE_CAR_SETS = "s_class", ("configuration_3", "configuration_4")
+"""Car and sets of characteristics of models that need more than a quarter of a car."""
+BODY_MODELS = {"lateral_force": "full_3dof", "longitudinal_force": "full_3dof", "roll_angle": "full_3dof"}
+"""Manoeuvres that act on the body of an oscillation model -> their model."""
 
 
 def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path, Path, bool]:
     """Case, its nominal path, output folder, and whether a video is wanted.
 
-    A configuration is one combination of the given vehicles, sets of characteristics and load cases.
+    A configuration is one combination of the given vehicles, sets of characteristics and load cases. Without a vehicle, a
+    quarter car is that of chapter 3, any other model the whole car with two of its sets.
     """
     manoeuvre = MANOEUVRES[kind]
     options = vars(_parser(kind, manoeuvre).parse_args(arguments))
     parameters = {name: options[name] for name in manoeuvre.model_fields if options.get(name) is not None}
-    vehicles = options["vehicle"] or [DEFAULT_VEHICLE]
+    vehicles, chosen_sets = options["vehicle"], options["characteristics"]
+    if not vehicles:
+        quarter = options["model"].startswith("quarter")
+        vehicles, chosen_sets = ([DEFAULT_VEHICLE], chosen_sets) if quarter else ([WHOLE_CAR], chosen_sets or list(WHOLE_CAR_SETS))
     settings = [
         dict(
             name=_label(vehicles, vehicle, sets, load, options["load"]),
@@ -37,7 +46,7 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
             axle=options["axle"],
         )
         for vehicle in vehicles
-        for sets in options["characteristics"] or [None]
+        for sets in chosen_sets or [None]
         for load in options["load"]
     ]
     case = validate(
@@ -53,6 +62,13 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
     return case, Path(f"{kind}.py"), options["out"], options["video"]
 
 
+def default_model(kind: str) -> str:
+    """Model that a manoeuvre is for: the car that drives freely, the body of an oscillation model, or the quarter car."""
+    manoeuvre = MANOEUVRES[kind]
+    drives = issubclass(manoeuvre, Driving) or manoeuvre.rig == K_AND_C
+    return HANDLING if drives else BODY_MODELS.get(kind, DEFAULT_MODEL)
+
+
 def _absolute(vehicle: str) -> str:
     return str(Path(vehicle).resolve()) if vehicle.endswith(".toml") else vehicle
 
@@ -64,10 +80,11 @@ def _label(vehicles: Sequence[str], vehicle: str, sets: str | None, load: str, l
 
 def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=f"{kind}.py", description=(manoeuvre.__doc__ or "").split("\n\n")[0], allow_abbrev=False)
-    parser.add_argument("--vehicle", action="append", help=f"car or vehicle file, repeatable (default {DEFAULT_VEHICLE})")
+    parser.add_argument("--vehicle", action="append", help=f"car or vehicle file, repeatable (default {DEFAULT_VEHICLE} or {WHOLE_CAR})")
     parser.add_argument("--characteristics", "-c", action="append", help="set of characteristics of the car, repeatable")
     parser.add_argument("--load", nargs="+", default=[DESIGN_LOAD], help="load cases (default ko)")
-    parser.add_argument("--model", "-m", default=DEFAULT_MODEL, help=f"{', '.join(MODELS)} (default {DEFAULT_MODEL})")
+    model = default_model(kind)
+    parser.add_argument("--model", "-m", default=model, help=f"{', '.join(MODELS)} (default {model})")
     parser.add_argument("--axle", choices=("front", "rear"))
     parser.add_argument("--out", "-o", type=Path, default=Path("out") / kind, help=f"folder for the results (default out/{kind})")
     parser.add_argument("--video", action="store_true", help="also render an animation")

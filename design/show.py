@@ -33,10 +33,27 @@ def print_comparison(comparison: Comparison) -> None:
         table.add_row(name, *cells)
     console = _console()
     console.print(table)
+    _print_turning(comparison, console)
     for each, verdict in zip(comparison.configurations, verdicts, strict=True):
         failed = [f"{name} {_band(v)}" for name, v in verdict.items() if not v["passed"]]
         if verdict:
             console.print(f"{each.name}: " + (f"fails {', '.join(failed)}" if failed else "meets all criteria"))
+
+
+def _print_turning(comparison: Comparison, console: Console) -> None:
+    """Roll and wheel lift of cars that turn."""
+    from evaluation.turning import turning_table
+
+    turning = turning_table(comparison)
+    if turning is None:
+        return
+    table = Table(title="Roll and wheel lift", box=SIMPLE_HEAD, title_justify="left")
+    table.add_column("")
+    for name in turning.names:
+        table.add_column(Text(name), justify="right")
+    for row in turning.rows:
+        table.add_row(*row)
+    console.print(table)
 
 
 def print_claims(comparison: Comparison) -> None:
@@ -149,21 +166,31 @@ def print_lists() -> None:
 
 
 def _print_matrix() -> None:
-    """Which manoeuvre runs on which model: it drives inputs that the model has."""
+    """Which manoeuvre runs on which model: it drives inputs that the model has, on the rig that it needs."""
     from manoeuvres import MANOEUVRES
-    from vehicles.mjcf import HANDLING, K_AND_C, MODELS, OSCILLATION, build
+    from vehicles.mjcf import MODELS
+
+    table = Table(title="Manoeuvre x model", box=SIMPLE_HEAD, title_justify="left", title_style="bold")
+    table.add_column("")
+    rigs = {manoeuvre.rig for manoeuvre in MANOEUVRES.values()}
+    offered = {model: {rig: _inputs(model, rig) for rig in rigs} for model in MODELS}
+    for model in MODELS:
+        table.add_column(model, justify="center")
+    for name, manoeuvre in MANOEUVRES.items():
+        table.add_row(name, *("x" if set(manoeuvre.needs) <= offered[model][manoeuvre.rig] else "" for model in MODELS))
+    _console().print(table)
+
+
+def _inputs(model: str, rig: str | None) -> set[str]:
+    """Quantities of the inputs of a model on a rig; none if it has no such rig."""
+    from susp_mj.errors import InputError
+    from vehicles.mjcf import build
     from vehicles.vehicle import load_vehicle
 
-    table = Table(title="Model x manoeuvre", box=SIMPLE_HEAD, title_justify="left", title_style="bold")
-    table.add_column("")
-    for manoeuvre in MANOEUVRES:
-        table.add_column(manoeuvre, justify="center")
-    car = load_vehicle("s_class")
-    for model in MODELS:
-        rigs = [None, K_AND_C] if model == HANDLING else ["roll" if "roll" in OSCILLATION[model].freedoms else None]
-        offered = {place.quantity for rig in rigs for place in build(car, model, rig=rig).meaning.inputs}
-        table.add_row(model, *("x" if set(kind.needs) <= offered else "" for kind in MANOEUVRES.values()))
-    _console().print(table)
+    try:
+        return {place.quantity for place in build(load_vehicle("s_class"), model, rig=rig).meaning.inputs}
+    except InputError:
+        return set()
 
 
 def _case_title(name: str) -> str:

@@ -8,9 +8,11 @@ import numpy as np
 
 from susp_mj.run import Run
 
+from .handling import FIT, RIG, SLOWLY_TIGHTENED, drives, followed, kind, tightening
 from .number import Number
 
 GRAVITY = 9.81
+_LAST = 0.5  # s; a car that drives freely is held in a turn if nothing changes for this long
 
 
 def pitch_angle_max(run: Run) -> Number:
@@ -27,7 +29,9 @@ def roll_angle_max(run: Run) -> Number:
     """Largest roll from the initial attitude, to either side [rad], without sign."""
     if "roll_angle" not in run:
         return _without("roll_angle", "rad")
-    roll = run["roll_angle"] - run["roll_angle"][0]
+    if kind(run) == RIG:
+        return Number(None, "rad", "the rig holds the body", applies=False)
+    roll = (run["roll_angle"] - run["roll_angle"][0])[: followed(run)]
     at = int(np.argmax(np.abs(roll)))
     if abs(roll[at]) < 1e-9:
         return Number(0.0, "rad", "does not roll")
@@ -45,10 +49,20 @@ def roll_angle_final(run: Run) -> Number:
 
 
 def roll_gradient(run: Run) -> Number:
-    """Roll per lateral acceleration at the end of the run [rad/(m/s²)]."""
-    if "lateral_acceleration" not in run or "roll_angle" not in run or run["lateral_acceleration"][-1] == 0.0:
-        return Number(None, "rad/(m/s²)", "needs a lateral acceleration", applies=False)
-    return Number(float((run["roll_angle"][-1] - run["roll_angle"][0]) / run["lateral_acceleration"][-1]), "rad/(m/s²)")
+    """Roll per lateral acceleration [rad/(m/s²)].
+
+    Where the lateral acceleration is held, at the end of the run; in a turn that a freely driving car tightens slowly, the slope
+    between 1 and 4 m/s².
+    """
+    unit = "rad/(m/s²)"
+    turning = tightening(run)
+    if turning is not None and "roll_angle" in run:
+        value = turning.gradient(turning.side * turning.part(run["roll_angle"]))
+        return Number(value, unit, f"between {FIT[0]:g} and {FIT[1]:g} m/s²" if value is not None else f"does not reach {FIT[1]:g} m/s²")
+    held = "lateral_acceleration" in run and run["lateral_acceleration"][-1] != 0.0 and _is_held(run)
+    if not held or "roll_angle" not in run:
+        return Number(None, unit, "needs a held lateral acceleration", applies=False)
+    return Number(float((run["roll_angle"][-1] - run["roll_angle"][0]) / run["lateral_acceleration"][-1]), unit)
 
 
 def load_share_front(run: Run) -> Number:
@@ -135,7 +149,17 @@ def _bar(run: Run, axle: str) -> Number:
 
 def _is_held(run: Run) -> bool:
     """Whether something drives the body and is held at the end, so that the end of the run is a state and not an instant."""
+    if drives(run) or kind(run) == RIG:
+        return drives(run) and kind(run) not in SLOWLY_TIGHTENED and _turns_steadily(run)
     return any(name in run and run[name][-1] != 0.0 for name in ("lateral_acceleration", "longitudinal_acceleration", "roll_target"))
+
+
+def _turns_steadily(run: Run) -> bool:
+    """Whether a freely driving car ends in a steady turn: steering wheel, speed and lateral acceleration no longer change."""
+    last = run.time > run.time[-1] - _LAST
+    acceleration, steering, speed = (run[name][last] for name in ("lateral_acceleration", "steering_wheel_angle", "speed"))
+    mean = abs(float(acceleration.mean()))
+    return bool(mean > 0.5 and np.ptp(acceleration) < 0.05 * mean and np.ptp(steering) < 1e-3 and np.ptp(speed) < 0.02 * speed.max())
 
 
 def _not_held(unit: str) -> Number:
@@ -155,7 +179,9 @@ def _transfer(run: Run, left: str, right: str) -> Number:
 def _largest(run: Run, channel: str, sign: float) -> Number:
     if channel not in run:
         return _without(channel, "rad")
-    values = sign * (run[channel] - run[channel][0])
+    if kind(run) == RIG:
+        return Number(None, "rad", "the rig holds the body", applies=False)
+    values = sign * (run[channel] - run[channel][0])[: followed(run)]
     at = int(np.argmax(values))
     return Number(sign * float(values[at]), "rad", f"at {run.time[at]:.3f} s")
 

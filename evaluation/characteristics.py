@@ -8,7 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from susp_mj.elements import GRAVITY
+
 from .compare import Characteristic, ComponentDamper, ComponentSpring, ElementNote
+from .tyre_curves import TyreCurves, tyre_curves
 
 BEYOND_STOPS = 0.04
 """How far the samples reach beyond each stop, as a share of the travel."""
@@ -21,7 +24,8 @@ def characteristic(title: str, axle: Any) -> Characteristic:
 
     Args:
         title: e.g. "rear axle".
-        axle: what carries a ``spring`` with its preload and stops, and a ``damper``; ``friction`` and ``tyre`` may be None.
+        axle: what carries a ``spring`` with its preload and stops, and a ``damper``; ``friction``, ``tyre`` and ``handling_tyre``
+            may be None.
             A ``spring_ratio`` or ``damper_ratio`` adds the component's own characteristic.
     """
     spring, damper = axle.spring, axle.damper
@@ -41,7 +45,16 @@ def characteristic(title: str, axle: Any) -> Characteristic:
         elements=tuple(_notes(axle)),
         component_spring=_component_spring(spring, getattr(axle, "spring_ratio", None), deflection[inside]),
         component_damper=_component_damper(damper, getattr(axle, "damper_ratio", None), speed),
+        tyre=_tyre(axle),
     )
+
+
+def _tyre(axle: Any) -> TyreCurves | None:
+    """Curves of the tyre with slip around the wheel load in the design position."""
+    tyre = getattr(axle, "handling_tyre", None)
+    if tyre is None:
+        return None
+    return tyre_curves(tyre, float(axle.spring.force_at(0.0)) + GRAVITY * (axle.unsprung_mass or 0.0))
 
 
 def _component_spring(spring: Any, ratio: Any, deflection: np.ndarray) -> ComponentSpring | None:
@@ -92,7 +105,7 @@ def _frequency(spring: Any, deflection: np.ndarray) -> np.ndarray:
 
 def _notes(axle: Any) -> Iterator[ElementNote]:
     """What the elements of an axle are, for the equations of the report."""
-    for role in ("spring", "stops", "damper", "mount", "friction", "tyre"):
+    for role in ("spring", "stops", "damper", "mount", "friction", "tyre", "handling_tyre"):
         holder = {"stops": axle.spring, "mount": axle.damper}.get(role, axle)
         element = getattr(holder, role, None)
         if element is not None:

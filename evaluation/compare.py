@@ -13,6 +13,7 @@ from susp_mj.run import Run
 
 from . import NUMBERS
 from .number import Criterion, Number
+from .tyre_curves import TyreCurves
 
 if TYPE_CHECKING:
     from susp_mj.linear import Mode
@@ -23,7 +24,7 @@ class ElementNote:
     """Which law an element follows, for the equations of a report.
 
     Attributes:
-        role: ``spring``, ``stops``, ``damper``, ``mount``, ``friction`` or ``tyre``.
+        role: ``spring``, ``stops``, ``damper``, ``mount``, ``friction``, ``tyre`` or ``handling_tyre``.
         kind: its kind, as files write it.
         text: what its class says of itself.
     """
@@ -74,6 +75,7 @@ class Characteristic:
         preload: [N].
         elements: what the suspension is made of.
         component_spring, component_damper: the same at the component, or None where no motion ratio is given.
+        tyre: curves of the tyre with slip, or None where the car has none.
     """
 
     title: str
@@ -87,6 +89,7 @@ class Characteristic:
     elements: Sequence[ElementNote] = ()
     component_spring: ComponentSpring | None = None
     component_damper: ComponentDamper | None = None
+    tyre: TyreCurves | None = None
 
     @property
     def stops(self) -> tuple[float, float]:

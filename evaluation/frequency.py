@@ -49,15 +49,27 @@ def amplification(run: Run, channel: str, station: str = "", points: int = 200) 
     low, high = float(swept[0]), float(swept[-1])
     if not high > 2 * low or not np.any(reference):
         return None
-    response = run[channel] - run[channel][0]
+    return deconvolved(reference, run[channel] - run[channel][0], run.step, (low, high), points)
+
+
+def deconvolved(reference: np.ndarray, response: np.ndarray, step: float, swept: tuple[float, float], points: int = 200) -> Amplification:
+    """First harmonic of a response over a reference that is an exponential sine sweep.
+
+    Args:
+        reference, response: (n,) samples, zero where nothing happens.
+        step: their spacing [s].
+        swept: frequencies from and to which the reference is swept [Hz].
+        points: number of frequencies, evenly spaced on a logarithmic axis.
+    """
+    low, high = swept
     count = 2 ** int(np.ceil(np.log2(2 * len(reference))))
-    spectrum = np.fft.rfftfreq(count, run.step)
+    spectrum = np.fft.rfftfreq(count, step)
     excitation = np.fft.rfft(reference, count)
     band = _band(spectrum, low, high)
     inside = band > 0
     ratio = np.zeros(len(spectrum), complex)
     ratio[inside] = band[inside] * np.fft.rfft(response, count)[inside] / excitation[inside]
-    window = _window(np.fft.fftfreq(count, 1 / count) * run.step, float(run.time[-1]), np.log(high / low))
+    window = _window(np.fft.fftfreq(count, 1 / count) * step, (len(reference) - 1) * step, np.log(high / low))
     kept, reference_kept = (np.fft.rfft(np.fft.irfft(each, count) * window) for each in (ratio, band))
     frequency = np.geomspace(LOW_EDGE * low, high / HIGH_EDGE, points)
     found = np.interp(frequency, spectrum[inside], (kept[inside] / reference_kept[inside]))

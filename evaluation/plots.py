@@ -5,23 +5,24 @@ matplotlib is imported when the first plot is drawn. The same input gives the sa
 
 from __future__ import annotations
 
-import io
 import itertools
 import re
-import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from susp_mj.files import write_text
 from susp_mj.names import QUANTITIES, channel_name
 
-from .colours import COLOURS
+from .colours import COLOURS, LIFTED
 from .display import shown
+from .figures import GRID, INK, MUTED, PAPER, colour, draw_line, draw_svg, label_axes, make_panels, spans, stop_lines, thinned
 from .frequency import amplification
+from .handling_plots import handling_plots, shown_together
 from .ride import CONTACT_LOST, INPUTS
+from .tyre_plots import tyre_plots
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,67 +58,30 @@ STATIONS = {
 }
 """Stations as a reader calls them."""
 
-INK, MUTED, GRID, PAPER = "#24292f", "#6b7480", "#dfe3e8", "#ffffff"
-_LIGHT = {"ink": INK, "muted": MUTED, "grid": GRID, "paper": PAPER}
-_DARK = {"ink": "#dfe4ea", "muted": "#8d96a1", "grid": "#333a43", "paper": "#1b2026"}
-FONTS = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
-LINE_STYLES = ("-", "--", ":")
-"""The colours repeat after eight configurations, then the line style changes."""
-
-_POINTS = 1000
-"""A line with more than twice as many samples is drawn by its extremes in as many bins."""
+HANDLING = "handling"
+"""The model that rolls on tyres with slip."""
+_LIGHT = {"ink": INK, "muted": MUTED, "grid": GRID, "paper": PAPER, "lifted": LIFTED}
+_DARK = {"ink": "#dfe4ea", "muted": "#8d96a1", "grid": "#333a43", "paper": "#1b2026", "lifted": "#ff6b70"}
+_QUIET = {"rad": 1e-4, "m": 1e-4, "m/s": 1e-3, "m/s²": 0.05}
+"""Range [SI unit] of a quantity of a handling car below which it is not drawn over time."""
 _LEAST_FREQUENCY_SPAN = 0.6
 """The natural frequency axis covers at least this [Hz]: a constant one shall look constant."""
-_PANEL = (4.05, 2.15)
-_LEFT, _RIGHT, _BOTTOM, _GAP, _ROW_GAP = 0.66, 0.12, 0.46, 0.7, 0.5
-_LEGEND_ROW = 0.17
-_STYLE: Any = {
-    "font.family": "DejaVu Sans",
-    "font.size": 8.5,
-    "axes.edgecolor": MUTED,
-    "axes.labelcolor": INK,
-    "axes.linewidth": 0.7,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "axes.titlesize": 8.5,
-    "axes.titlecolor": MUTED,
-    "axes.titlelocation": "left",
-    "axes.xmargin": 0.0,
-    "axes.ymargin": 0.07,
-    "axes.unicode_minus": True,
-    "grid.color": GRID,
-    "grid.linewidth": 0.6,
-    "text.color": INK,
-    "text.parse_math": False,
-    "xtick.color": MUTED,
-    "ytick.color": MUTED,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "xtick.major.width": 0.7,
-    "ytick.major.width": 0.7,
-    "xtick.minor.size": 0,
-    "ytick.minor.size": 0,
-    "lines.solid_capstyle": "round",
-    "lines.solid_joinstyle": "round",
-    "path.simplify_threshold": 0.15,
-    "figure.facecolor": PAPER,
-    "axes.facecolor": "none",
-    "svg.fonttype": "none",
-    "svg.hashsalt": "susp_mj",
-}
-
-
-def colour(order: int) -> str:
-    """Fixed colour of the configuration at a place in the order of its case."""
-    return COLOURS[order % len(COLOURS)]
 
 
 def draw(comparison: Comparison) -> dict[str, str]:
-    """Every plot of a comparison as SVG text, by name: amplification of sweeps, then time, then characteristics."""
+    """Every plot of a comparison as SVG text, by name: handling, amplification of sweeps, over time, characteristics.
+
+    Those of the tyres with slip are drawn for the model that rolls on them.
+    """
     sets = {each.name: each.characteristics for each in comparison.configurations}
-    return {**amplification_plots(comparison), **time_plots(comparison), **characteristic_plots(sets)}
+    rolling = any(each.run.meta.get("model") == HANDLING for each in comparison.configurations)
+    return {
+        **handling_plots(comparison),
+        **amplification_plots(comparison),
+        **time_plots(comparison),
+        **characteristic_plots(sets),
+        **(tyre_plots(sets) if rolling else {}),
+    }
 
 
 def save_plots(comparison: Comparison, folder: str | Path, plots: Mapping[str, str] | None = None) -> list[Path]:
@@ -137,14 +101,23 @@ def time_plots(comparison: Comparison) -> dict[str, str]:
     """One plot over time for each quantity that was recorded; several stations become panels."""
     configurations = comparison.configurations
     plots: dict[str, str] = {}
+    together = shown_together(configurations)
     for quantity in TIME_QUANTITIES:
         stations = _stations(configurations, quantity)
-        if stations and not (quantity in INPUTS and _stands_still(configurations, quantity)):
-            plots[quantity] = _drawn(_time_figure, configurations, [(quantity, station) for station in stations])
+        if stations and quantity not in together and not _is_quiet(configurations, quantity):
+            plots[quantity] = draw_svg(_time_figure, configurations, [(quantity, station) for station in stations])
     forces = [(quantity, station) for quantity in ELEMENT_FORCES for station in _acting(configurations, quantity)]
     if forces:
-        plots["element_forces"] = _drawn(_time_figure, configurations, forces)
+        plots["element_forces"] = draw_svg(_time_figure, configurations, forces)
     return plots
+
+
+def _is_quiet(configurations: Sequence[Configuration], quantity: str) -> bool:
+    """Whether a quantity is not worth a plot: an input that is not used, or anything that a handling car hardly moves."""
+    if any(each.run.meta.get("model") != HANDLING for each in configurations):
+        return quantity in INPUTS and _stands_still(configurations, quantity)
+    least = _QUIET.get(QUANTITIES[quantity][0], 0.0)
+    return all(np.ptp(values) <= least for each in configurations for values in each.run.stations(quantity).values())
 
 
 def _stands_still(configurations: Sequence[Configuration], quantity: str) -> bool:
@@ -171,22 +144,22 @@ def characteristic_plots(sets: Mapping[str, Sequence[Characteristic]]) -> dict[s
     titles = list(dict.fromkeys(each.title for characteristics in sets.values() for each in characteristics))
     if not titles:
         return {}
-    plots = {name: _drawn(_characteristic_figure, sets, titles, draw_one) for name, draw_one in _CHARACTERISTICS.items()}
+    plots = {name: draw_svg(_characteristic_figure, sets, titles, draw_one) for name, draw_one in _CHARACTERISTICS.items()}
     for name, (part, draw_one) in _COMPONENTS.items():
         known = {key: [each for each in characteristics if getattr(each, part)] for key, characteristics in sets.items()}
         there = [title for title in titles if any(each.title == title for each in itertools.chain(*known.values()))]
         if there:
-            plots[name] = _drawn(_characteristic_figure, known, there, draw_one)
+            plots[name] = draw_svg(_characteristic_figure, known, there, draw_one)
     return plots
 
 
 def amplification_plots(comparison: Comparison) -> dict[str, str]:
-    """Amplification over frequency for each quantity; empty unless the manoeuvre was a sine sweep."""
+    """Amplification over frequency for each quantity; empty unless the manoeuvre was a sine sweep of the road."""
     configurations = comparison.configurations
-    if not any("excitation_phase" in each.run for each in configurations):
+    if not any("excitation_phase" in each.run and not _stands_still([each], "road_height") for each in configurations):
         return {}
     return {
-        f"{quantity}_amplification": _drawn(_amplification_figure, configurations, quantity, stations)
+        f"{quantity}_amplification": draw_svg(_amplification_figure, configurations, quantity, stations)
         for quantity in SWEEP_QUANTITIES
         if (stations := _responding(configurations, quantity))
     }
@@ -216,82 +189,17 @@ def on_dark(colour: str) -> str:
     return "#" + "".join(f"{round(part + 0.42 * (255 - part)):02x}" for part in parts)
 
 
-def _drawn(make: Callable[..., Figure], *arguments: Any) -> str:
-    """SVG text of the figure that `make` draws, in the house style."""
-    import matplotlib as mpl
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
-
-    buffer = io.StringIO()
-    with mpl.rc_context(_STYLE), warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="Glyph .* missing from")  # the browser's fonts may have it
-        FigureCanvasSVG(make(*arguments)).print_svg(buffer, metadata={"Date": None, "Creator": "susp_mj"})
-    svg = re.sub(r'(style="[^"]*font-family: )[^;"]*', rf"\g<1>{FONTS}", buffer.getvalue())
-    return "\n".join(line.rstrip() for line in svg.splitlines()) + "\n"
-
-
-def _panels(names: Sequence[str], titles: Sequence[str], *, share_y: bool = False) -> tuple[Figure, list[Axes]]:
-    """A figure with a legend on top and panels below, two in a row, or three that share the width of two.
-
-    Args:
-        names: of the configurations, for the legend.
-        titles: of the panels; an only panel needs none.
-    """
-    from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
-
-    count = len(titles)
-    columns = count if count <= 3 else 2
-    rows = -(-count // columns)
-    panel_width, panel_height = _PANEL
-    if columns == 3:
-        panel_width = (2 * panel_width - _GAP) / 3 - 0.02
-    width = _LEFT + columns * panel_width + (columns - 1) * _GAP + _RIGHT
-    labels = [_label(name) for name in names]
-    across = max(1, int((width - _LEFT) / (0.42 + 0.062 * max(map(len, labels)))))
-    title = 0.2 if count > 1 and any(titles) else 0.0
-    top = 0.16 + _LEGEND_ROW * -(-len(names) // across) + title
-    height = top + rows * panel_height + (rows - 1) * (_ROW_GAP + title) + _BOTTOM
-
-    figure = Figure(figsize=(width, height))
-    axes: list[Axes] = []
-    for i in range(count):
-        left = _LEFT + (i % columns) * (panel_width + _GAP)
-        bottom = height - top - panel_height - (i // columns) * (panel_height + _ROW_GAP + title)
-        box = (left / width, bottom / height, panel_width / width, panel_height / height)
-        axes.append(figure.add_axes(box, sharey=axes[0] if share_y and axes else None))
-        if count > 1:
-            axes[-1].set_title(_label(titles[i]) if titles[i] else "")
-    handles = [Line2D([], [], color=colour(i), linestyle=_line_style(i), linewidth=2.0) for i in range(len(names))]
-    legend = figure.legend(
-        handles,
-        [" "] * len(names),  # replaced below: the legend would drop a name that starts with an underscore
-        loc="upper left",
-        bbox_to_anchor=(_LEFT / width, 1 - 0.05 / height),
-        ncols=across,
-        frameon=False,
-        borderpad=0,
-        borderaxespad=0,
-        handlelength=1.6,
-        handletextpad=0.5,
-        columnspacing=1.6,
-        labelspacing=0.35,
-    )
-    for text, label in zip(legend.get_texts(), labels, strict=True):
-        text.set_text(label)
-    return figure, axes
-
-
 def _time_figure(configurations: Sequence[Configuration], panels: Sequence[tuple[str, str]]) -> Figure:
     """Time histories; `panels` are pairs of quantity and station."""
     same = len({quantity for quantity, _ in panels}) == 1
-    figure, axes = _panels([each.name for each in configurations], [_station_name(station) for _, station in panels], share_y=same)
+    figure, axes = make_panels([each.name for each in configurations], [_station_name(station) for _, station in panels], share_y=same)
     for panel, (quantity, station) in zip(axes, panels, strict=True):
         how = shown(QUANTITIES[quantity][0])
         for order, each in enumerate(configurations):
             values = each.run.stations(quantity).get(station)
             if values is not None:
-                _line(panel, order, *_thinned(each.run.time, values * how.factor))
-        _label_axes(panel, "time [s]", _quantity_label(quantity))
+                draw_line(panel, order, *thinned(each.run.time, values * how.factor))
+        label_axes(panel, "time [s]", _quantity_label(quantity))
         panel.set_xlim(0, max(float(each.run.time[-1]) for each in configurations))
         _mark_time(panel, configurations, quantity, station)
     return figure
@@ -303,45 +211,20 @@ def _mark_time(panel: Axes, configurations: Sequence[Configuration], quantity: s
         panel.axhline(0, color=INK, linewidth=0.9)
         for order, each in enumerate(configurations):
             load = each.run.stations(quantity).get(station)
-            for begin, end in _spans(each.run.time, load <= CONTACT_LOST) if load is not None else ():
+            for begin, end in spans(each.run.time, load <= CONTACT_LOST) if load is not None else ():
                 panel.axvspan(begin, end, color=colour(order), alpha=0.25, linewidth=1)
     elif quantity == "suspension_deflection":
         stops = {tuple(travel[station]) for each in configurations if station in (travel := each.run.meta.get("travel", {}))}
         for order, (rebound, compression) in enumerate(sorted(stops)):
-            _stop_lines(panel, rebound * 1e3, compression * 1e3, horizontal=True, named=order == 0)
+            stop_lines(panel, rebound * 1e3, compression * 1e3, horizontal=True, named=order == 0)
     low, high = panel.get_ylim()
     if quantity != "wheel_load" and low < 0 < high:
         panel.axhline(0, color=MUTED, linewidth=0.6, zorder=1.5)
 
 
-def _stop_lines(panel: Axes, rebound: float, compression: float, *, horizontal: bool, named: bool) -> None:
-    """Both stops [mm] as dashed lines, with their names."""
-    for place, name, outside in ((compression, "compression stop", "bottom"), (rebound, "rebound stop", "top")):
-        if horizontal:
-            panel.axhline(place, color=MUTED, linewidth=0.9, linestyle=(0, (5, 3)))
-            if named:
-                panel.annotate(
-                    name,
-                    (1, place),
-                    xycoords=("axes fraction", "data"),
-                    xytext=(-2, 2 if outside == "bottom" else -2),
-                    textcoords="offset points",
-                    ha="right",
-                    va=outside,
-                    fontsize=7.5,
-                    color=MUTED,
-                )
-        else:
-            panel.axvline(place, color=MUTED, linewidth=0.9, linestyle=(0, (5, 3)))
-    if horizontal:
-        low, high = panel.get_ylim()
-        margin = 0.1 * (compression - rebound)
-        panel.set_ylim(min(low, rebound - margin), max(high, compression + margin))
-
-
 def _characteristic_figure(sets: Mapping[str, Sequence[Characteristic]], titles: Sequence[str], draw_one: Callable[..., None]) -> Figure:
     """One panel for each title, all sets in it."""
-    figure, axes = _panels(list(sets), titles)
+    figure, axes = make_panels(list(sets), titles)
     for panel, title in zip(axes, titles, strict=True):
         stops: set[tuple[float, float]] = set()
         for order, characteristics in enumerate(sets.values()):
@@ -351,7 +234,7 @@ def _characteristic_figure(sets: Mapping[str, Sequence[Characteristic]], titles:
                     stops.add(each.stops)
         if draw_one in (_spring_force, _spring_rate):
             for rebound, compression in sorted(stops):
-                _stop_lines(panel, rebound * 1e3, compression * 1e3, horizontal=False, named=False)
+                stop_lines(panel, rebound * 1e3, compression * 1e3, horizontal=False, named=False)
     return figure
 
 
@@ -361,38 +244,38 @@ def _spring_force(panel: Axes, order: int, each: Characteristic) -> None:
     inside = force[(each.deflection >= rebound) & (each.deflection <= compression)]
     margin = 0.15 * float(np.ptp(inside))
     low, high = panel.get_ylim() if panel.lines else (np.inf, -np.inf)
-    _line(panel, order, each.deflection * 1e3, force)
+    draw_line(panel, order, each.deflection * 1e3, force)
     panel.plot([0], [each.preload * 1e-3], "o", color=colour(order), markersize=5, markeredgecolor=PAPER, markeredgewidth=0.8)
     panel.set_ylim(min(low, max(float(inside.min()) - margin, min(0.0, float(inside.min())))), max(high, float(inside.max()) + margin))
     panel.set_xlim(each.deflection[0] * 1e3, each.deflection[-1] * 1e3)
-    _label_axes(panel, "suspension deflection [mm]", "spring force at the wheel [kN]")
+    label_axes(panel, "suspension deflection [mm]", "spring force at the wheel [kN]")
 
 
 def _spring_rate(panel: Axes, order: int, each: Characteristic) -> None:
-    _line(panel, order, each.deflection * 1e3, each.spring_rate * 1e-3)
+    draw_line(panel, order, each.deflection * 1e3, each.spring_rate * 1e-3)
     panel.set_xlim(each.deflection[0] * 1e3, each.deflection[-1] * 1e3)
     panel.set_ylim(0, 1.08 * panel.dataLim.y1)
-    _label_axes(panel, "suspension deflection [mm]", "spring rate at the wheel [kN/m]")
+    label_axes(panel, "suspension deflection [mm]", "spring rate at the wheel [kN/m]")
 
 
 def _spring_frequency(panel: Axes, order: int, each: Characteristic) -> None:
     inside = np.isfinite(each.spring_frequency)
     load, frequency = np.asarray(each.spring_force)[inside] * 1e-3, np.asarray(each.spring_frequency)[inside]
-    _line(panel, order, load, frequency)
+    draw_line(panel, order, load, frequency)
     at_preload = float(np.interp(each.preload * 1e-3, load, frequency))
     panel.plot([each.preload * 1e-3], [at_preload], "o", color=colour(order), markersize=5, markeredgecolor=PAPER, markeredgewidth=0.8)
     low, high = panel.dataLim.intervaly
     margin = max(0.07 * (high - low), 0.5 * (_LEAST_FREQUENCY_SPAN - (high - low)))
     panel.set_ylim(max(low - margin, 0), high + margin)
-    _label_axes(panel, "load carried by the spring [kN]", "natural frequency [Hz]")
+    label_axes(panel, "load carried by the spring [kN]", "natural frequency [Hz]")
 
 
 def _damper_force(panel: Axes, order: int, each: Characteristic) -> None:
-    _line(panel, order, each.speed, each.damper_force * 1e-3)
+    draw_line(panel, order, each.speed, each.damper_force * 1e-3)
     if order == 0:
         panel.axhline(0, color=MUTED, linewidth=0.6, zorder=1.5)
         panel.axvline(0, color=MUTED, linewidth=0.6, zorder=1.5)
-    _label_axes(panel, "speed, compression positive [m/s]", "damper force at the wheel [kN]")
+    label_axes(panel, "speed, compression positive [m/s]", "damper force at the wheel [kN]")
 
 
 def _component_spring(panel: Axes, order: int, each: Characteristic) -> None:
@@ -400,20 +283,20 @@ def _component_spring(panel: Axes, order: int, each: Characteristic) -> None:
     if spring is None:
         return
     travel, force = np.asarray(spring.travel) * 1e3, np.asarray(spring.force) * 1e-3
-    _line(panel, order, travel, force)
+    draw_line(panel, order, travel, force)
     preload = [each.preload / spring.ratio * 1e-3]
     panel.plot([0], preload, "o", color=colour(order), markersize=5, markeredgecolor=PAPER, markeredgewidth=0.8)
-    _label_axes(panel, "spring travel [mm]", "force of the spring itself [kN]")
+    label_axes(panel, "spring travel [mm]", "force of the spring itself [kN]")
 
 
 def _component_damper(panel: Axes, order: int, each: Characteristic) -> None:
     damper = each.component_damper
     if damper is None:
         return
-    _line(panel, order, np.asarray(damper.speed), np.asarray(damper.force) * 1e-3)
+    draw_line(panel, order, np.asarray(damper.speed), np.asarray(damper.force) * 1e-3)
     panel.axhline(0, color=MUTED, linewidth=0.6, zorder=1.5)
     panel.axvline(0, color=MUTED, linewidth=0.6, zorder=1.5)
-    _label_axes(panel, "damper speed, compression positive [m/s]", "force of the damper itself [kN]")
+    label_axes(panel, "damper speed, compression positive [m/s]", "force of the damper itself [kN]")
 
 
 _CHARACTERISTICS: dict[str, Callable[..., None]] = {
@@ -431,7 +314,7 @@ _COMPONENTS: dict[str, tuple[str, Callable[..., None]]] = {
 def _amplification_figure(configurations: Sequence[Configuration], quantity: str, stations: Sequence[str]) -> Figure:
     from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-    figure, axes = _panels([each.name for each in configurations], [_station_name(each) for each in stations], share_y=True)
+    figure, axes = make_panels([each.name for each in configurations], [_station_name(each) for each in stations], share_y=True)
     unit = QUANTITIES[quantity][0]
     shown_as = {"m": ("", 1.0), "m/s²": ("1/s²", 1.0), "N": ("kN/m", 1e-3), "rad": ("°/m", 180 / np.pi)}
     ratio_unit, factor = shown_as.get(unit, (f"({unit})/m", 1.0))
@@ -441,7 +324,7 @@ def _amplification_figure(configurations: Sequence[Configuration], quantity: str
             name = channel_name(station, quantity)
             found = amplification(each.run, name, station) if name in each.run else None
             if found is not None:
-                _line(panel, order, found.frequency, np.abs(found.ratio) * factor)
+                draw_line(panel, order, found.frequency, np.abs(found.ratio) * factor)
             if name in each.transfer:
                 frequency, exact = each.transfer[name]
                 panel.plot(frequency, np.abs(exact) * factor, color=colour(order), linestyle=":", linewidth=1.2)
@@ -452,46 +335,13 @@ def _amplification_figure(configurations: Sequence[Configuration], quantity: str
             axis.set_major_locator(LogLocator(subs=(1, 2, 5) if decades < 3 else (1,)))
             axis.set_minor_locator(NullLocator())
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        _label_axes(panel, "frequency [Hz]", label)
+        label_axes(panel, "frequency [Hz]", label)
     return figure
-
-
-def _line(panel: Axes, order: int, x: np.ndarray, y: np.ndarray) -> None:
-    """One configuration's line; where it hides an equal one it is dashed, so that both are seen."""
-    style: Any = _line_style(order)
-    hidden = sum(_look_alike(line.get_xydata(), x, y) for line in panel.lines)
-    if hidden:
-        dash = 6 / 2 ** (min(hidden, 3) - 1)
-        style = (0, (dash, 12 - dash))
-    panel.plot(x, y, color=colour(order), linestyle=style, linewidth=1.5)
-
-
-def _look_alike(line: Any, x: np.ndarray, y: np.ndarray) -> bool:
-    """Whether a line already drawn, (n, 2), lies where ``(x, y)`` would: within the width of a line."""
-    if line.shape != (len(x), 2) or not np.array_equal(line[:, 0], x):
-        return False
-    difference, seen = np.abs(line[:, 1] - y), np.isfinite(y)
-    return bool(difference[seen].max() <= 0.004 * np.ptp(y[seen]) or difference[seen].max() == 0)
-
-
-def _line_style(order: int) -> Any:
-    return LINE_STYLES[order // len(COLOURS) % len(LINE_STYLES)]
-
-
-def _label_axes(panel: Axes, x: str, y: str) -> None:
-    panel.set_xlabel(x)
-    panel.set_ylabel(y)
 
 
 def _quantity_label(quantity: str) -> str:
     unit = shown(QUANTITIES[quantity][0]).unit
     return f"{quantity.replace('_', ' ')} [{unit}]"
-
-
-def _label(text: str) -> str:
-    """A user's text as a plot can show it: one line, not too long, nothing that XML forbids."""
-    plain = "".join(each if each.isprintable() else " " for each in text) or "–"
-    return plain if len(plain) <= 48 else plain[:47] + "…"
 
 
 def _station_name(station: str) -> str:
@@ -501,22 +351,3 @@ def _station_name(station: str) -> str:
 def _stations(configurations: Sequence[Configuration], quantity: str) -> list[str]:
     """Stations at which any configuration recorded the quantity."""
     return list(dict.fromkeys(station for each in configurations for station in each.run.stations(quantity)))
-
-
-def _thinned(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """A line that looks the same with fewer points: the extremes of each bin, in their order."""
-    size = len(values) // _POINTS
-    if size < 2:
-        return time, values
-    whole = len(values) // size * size
-    bins = values[:whole].reshape(-1, size)
-    extremes = np.sort(np.column_stack([bins.argmin(axis=1), bins.argmax(axis=1)]), axis=1) + np.arange(0, whole, size)[:, None]
-    keep = np.unique(np.concatenate([[0], extremes.ravel(), [len(values) - 1]]))
-    return time[keep], values[keep]
-
-
-def _spans(time: np.ndarray, where: np.ndarray) -> Iterator[tuple[float, float]]:
-    """First and last time of every stretch in which `where` holds."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], where, [False]]).astype(int)))
-    for begin, end in zip(edges[::2], edges[1::2], strict=True):
-        yield float(time[begin]), float(time[end - 1])

@@ -26,8 +26,11 @@ from susp_mj.files import write_text
 from . import NUMBERS
 from .colours import COLOURS
 from .display import number_text, quantity_text, shown
+from .handling_plots import STEERED
 from .number import Criterion
-from .plots import STATIONS, characteristic_plots, draw, for_page, on_dark
+from .plots import HANDLING, STATIONS, characteristic_plots, draw, for_page, on_dark
+from .turning import turning_table
+from .tyre_plots import tyre_plots
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -54,12 +57,26 @@ _PLOT_NOTES = {
     "seat_acceleration": "at the driver's seat, positive upwards",
     "body_acceleration": "positive upwards",
     "body_displacement": "positive upwards, from the design position",
+    "wheel_lift_handling": "a ring marks a wheel that leaves the road, with the lateral acceleration at which it does",
+    "self_steering_handling": "positive into the turn; dotted: the angle of slip-free rolling on the same circle",
+    "wheel_travel_handling": "up to the largest lateral acceleration; positive in compression, from the design position",
+    "course_handling": "way of the centre of gravity; thin: the corners of the car",
+    "kinematics_handling": "of the left wheel, or the mean of both",
+    "over_time_handling": "positive to the left, roll left side up, pitch nose down",
+    **dict.fromkeys(
+        (f"{quantity}_over_frequency_handling" for quantity in STEERED),
+        "per steering wheel angle; the coherence is 1 where the car answers linearly",
+    ),
     "spring_force_characteristic": "the dot is the preload in the design position; dashed lines are the stops",
     "spring_rate_characteristic": "between the stops",
     "natural_frequency_characteristic": "of the mass that the spring carries",
     "damper_force_characteristic": "hydraulic force, without mount and friction",
     "component_spring_force_characteristic": "over its own travel between the stops; the dot is the design position",
     "component_damper_force_characteristic": "over its own speed, the wheel in the design position",
+    "tyre_longitudinal_force_characteristic": "at 0.5, 1, 1.5 and 2 times the wheel load in the design position; positive driven",
+    "tyre_lateral_force_characteristic": "at the same loads; a tyre that drifts to the left is pushed to the right",
+    "tyre_aligning_moment_characteristic": "at the same loads; positive to the left",
+    "tyre_combined_slip_characteristic": "lines of one slip angle at the wheel load in the design position; dotted: the friction ellipse",
 }
 _GLOSSARY = (
     ("body motion", "vertical, positive upwards; zero is the design position"),
@@ -111,6 +128,7 @@ def write_report(
             configurations=[{"name": each.name, "title": each.title, **each.facts} for each in comparison.configurations],
             claims=comparison.claims,
             criteria=_criteria_rows(comparison),
+            turning=turning_table(comparison),
             numbers=_number_rows(comparison, footnotes),
             modes=_mode_rows(comparison),
             footnotes=[(mark, note) for note, mark in footnotes.items()],
@@ -161,7 +179,7 @@ def write_sheet(title: str, sets: Mapping[str, Sequence[Characteristic]], path: 
             colours=_colours(),
             names=list(sets),
             groups=[{"title": each, "rows": _key_rows(each, sets)} for each in titles],
-            plots=[_plot(name, svg) for name, svg in characteristic_plots(sets).items()],
+            plots=[_plot(name, svg) for name, svg in (characteristic_plots(sets) | tyre_plots(sets)).items()],
         )
     )
     return write_text(path, page)
@@ -208,7 +226,7 @@ def _label(name: str) -> str:
     doc = (NUMBERS[name].__doc__ or "").strip() if name in NUMBERS else ""
     first = re.split(r": ``|\n\s*\n|(?<=\S)\. |\.$|;", doc, maxsplit=1)[0]
     text = re.sub(r"\s*\[[^\]]*\]", "", first).replace("`", "")
-    return " ".join(text.split()) or name.replace("_", " ")
+    return " ".join(text.split()).rstrip(".") or name.replace("_", " ")
 
 
 def _number_rows(comparison: Comparison, footnotes: dict[str, str]) -> list[dict[str, Any]]:
@@ -268,7 +286,12 @@ def _mode_rows(comparison: Comparison) -> list[dict[str, Any]]:
 
 def _sections(plots: Mapping[str, str]) -> Iterator[dict[str, Any]]:
     """Plots in their sections, in the order drawn."""
-    kinds = {"_amplification": "Amplification over frequency", "": "Over time", "_characteristic": "Characteristics"}
+    kinds = {
+        "_handling": "Handling",
+        "_amplification": "Amplification over frequency",
+        "": "Over time",
+        "_characteristic": "Characteristics",
+    }
     for ending, title in kinds.items():
         others = tuple(each for each in kinds if each and each != ending)
         names = [name for name in plots if name.endswith(ending) and not (ending == "" and name.endswith(others))]
@@ -281,7 +304,7 @@ def _plot(name: str, svg: str) -> dict[str, Any]:
     size = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg)
     width, height = (round(float(size[1]) * 4 / 3), round(float(size[2]) * 4 / 3)) if size else (480, 300)
     return {
-        "title": name.removesuffix("_characteristic").removesuffix("_amplification").replace("_", " ").capitalize(),
+        "title": re.sub("_(characteristic|amplification|handling)$", "", name).replace("_", " ").capitalize(),
         "note": _PLOT_NOTES.get(name, ""),
         "source": _data_uri(for_page(svg).encode(), "image/svg+xml"),
         "width": width,
@@ -309,7 +332,13 @@ def _video(path: Path, folder: Path) -> dict[str, Any]:
 
 def _elements(comparison: Comparison) -> list[dict[str, Any]]:
     """Each law that the suspensions follow, once, springs first."""
-    notes = {(note.role, note.kind): note for each in comparison.configurations for c in each.characteristics for note in c.elements}
+    notes = {
+        (note.role, note.kind): note
+        for each in comparison.configurations
+        for c in each.characteristics
+        for note in c.elements
+        if note.role != ("tyre" if each.run.meta.get("model") == HANDLING else "handling_tyre")
+    }
     order = list(dict.fromkeys(role for role, _ in notes))
     return [
         {"role": note.role, "kind": note.kind, "lines": _paragraphs(note.text)}

@@ -14,6 +14,7 @@ import numpy as np
 from susp_mj.names import QUANTITIES
 from susp_mj.run import Run
 
+from .handling import RIG, drives, kind, stations_of
 from .number import Number
 
 SETTLED_BAND = 0.05
@@ -38,6 +39,8 @@ def body_acceleration_rms(run: Run) -> Number:
     """Root mean square of the body's vertical acceleration over the whole run [m/s²]."""
     if "body_acceleration" not in run:
         return _missing("body_acceleration", "m/s²")
+    if _is_smooth(run):
+        return _not_shaken("m/s²")
     return Number(_rms(run["body_acceleration"]), "m/s²")
 
 
@@ -45,6 +48,8 @@ def body_displacement_max(run: Run) -> Number:
     """Largest rise of the body above its initial height [m]."""
     if "body_displacement" not in run:
         return _missing("body_displacement", "m")
+    if _is_smooth(run):
+        return _not_shaken("m")
     displacement = run["body_displacement"]
     at = int(np.argmax(displacement))
     return Number(float(displacement[at] - displacement[0]), "m", f"at {run.time[at]:.3f} s")
@@ -57,6 +62,8 @@ def overshoot(run: Run) -> Number:
     """
     if "body_displacement" not in run:
         return _missing("body_displacement", "1")
+    if _is_smooth(run):
+        return _not_shaken("1")
     if not _comes_to_rest(run):
         return Number(None, "1", "the road never comes to rest", applies=False)
     displacement = run["body_displacement"] - run["body_displacement"][0]
@@ -70,6 +77,8 @@ def settling_time(run: Run) -> Number:
     """Time from the first input until the body stays within ±5 % of its largest departure from the final height [s]."""
     if "body_displacement" not in run:
         return _missing("body_displacement", "s")
+    if _is_smooth(run):
+        return _not_shaken("s")
     if not _comes_to_rest(run):
         return Number(None, "s", "the road never comes to rest", applies=False)
     displacement = run["body_displacement"]
@@ -138,6 +147,26 @@ def travel_left_rebound(run: Run) -> Number:
     return _choose({s: float(x.min()) - run.meta["travel"][s][0] for s, x in run.stations("suspension_deflection").items()}, "m", min)
 
 
+def travel_left_compression_front(run: Run) -> Number:
+    """Smallest distance that a front wheel of a freely driving car keeps to its compression stop [m]."""
+    return _travel_left(run, "front", 1)
+
+
+def travel_left_compression_rear(run: Run) -> Number:
+    """Smallest distance that a rear wheel of a freely driving car keeps to its compression stop [m]."""
+    return _travel_left(run, "rear", 1)
+
+
+def travel_left_rebound_front(run: Run) -> Number:
+    """Smallest distance that a front wheel of a freely driving car keeps to its rebound stop [m]."""
+    return _travel_left(run, "front", 0)
+
+
+def travel_left_rebound_rear(run: Run) -> Number:
+    """Smallest distance that a rear wheel of a freely driving car keeps to its rebound stop [m]."""
+    return _travel_left(run, "rear", 0)
+
+
 def stop_hits(run: Run) -> Number:
     """How many times a hard stop is hit, all wheels and both directions together."""
     deflections = run.stations("suspension_deflection")
@@ -149,6 +178,31 @@ def stop_hits(run: Run) -> Number:
         for touching in (deflection > compression, deflection < rebound):
             hits += int(touching[0]) + int(np.sum(touching[1:] & ~touching[:-1]))
     return Number(float(hits), "1")
+
+
+def _travel_left(run: Run, axle: str, stop: int) -> Number:
+    """Smallest distance of an axle's wheels to a stop, the worse wheel's, noting it and the instant."""
+    if not drives(run):
+        return Number(None, "m", "the car does not drive freely", applies=False)
+    sign = 1.0 if stop else -1.0
+    worst: tuple[float, str, float] | None = None
+    for station in stations_of(axle):
+        left = sign * (run.meta["travel"][station][stop] - run[f"{station}_suspension_deflection"])
+        at = int(np.argmin(left))
+        if worst is None or left[at] < worst[0]:
+            worst = (float(left[at]), station, float(run.time[at]))
+    return Number(None, "m", "no wheels") if worst is None else Number(worst[0], "m", f"{worst[1]} at {worst[2]:.2f} s")
+
+
+def _is_smooth(run: Run) -> bool:
+    """Whether a car has a road that does not shake it, or a rig holds it, so that its body's vertical motion has other causes."""
+    if kind(run) in ("cross_slope", RIG):
+        return True
+    return drives(run) and not any(np.ptp(road) > 1e-9 for road in run.stations("road_height").values())
+
+
+def _not_shaken(unit: str) -> Number:
+    return Number(None, unit, "the road does not shake the car", applies=False)
 
 
 def _missing(quantity: str, unit: str) -> Number:
@@ -167,6 +221,8 @@ def _choose(values: dict[str, float], unit: str, choose: Callable[..., str]) -> 
 def _extreme(run: Run, channel: str, pick: Callable[..., Any]) -> Number:
     if channel not in run:
         return _missing(channel, QUANTITIES[channel][0])
+    if _is_smooth(run):
+        return _not_shaken(QUANTITIES[channel][0])
     values = run[channel]
     at = int(pick(values))
     return Number(float(values[at]), run.channels[channel].unit, f"at {run.time[at]:.3f} s")
@@ -199,7 +255,8 @@ def _comes_to_rest(run: Run) -> bool:
 
 def _first_input(run: Run) -> int | None:
     """Index of the last sample before any input moves, of the road or at the body."""
-    inputs = [values for quantity in INPUTS for values in run.stations(quantity).values()]
+    driven = ("road_height",) if drives(run) else INPUTS
+    inputs = [values for quantity in driven for values in run.stations(quantity).values()]
     moved = [np.flatnonzero(values != values[0]) for values in inputs]
     starts = [int(each[0]) for each in moved if len(each)]
     return max(min(starts) - 1, 0) if starts else None

@@ -6,14 +6,18 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from manoeuvres.driving import held_speed
+from manoeuvres.surface import sampled
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
-from susp_mj.roads import cosine_bump
+from susp_mj.roads import HeightAndSlope, Road, cosine_bump
 from susp_mj.units import Length, PositiveLength, PositiveSpeed, PositiveTime, Time
 
 
 class Bump(Manoeuvre):
     """Cosine bump ``z = h/2 (1 - cos(2 pi s/L))`` at constant speed; the rear axle meets it wheelbase/speed later.
+
+    An oscillation model is given the road under its wheels over time, a car that drives freely the road itself.
 
     Attributes:
         height: h [m]; negative is a dip.
@@ -35,9 +39,18 @@ class Bump(Manoeuvre):
 
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
         if place.quantity != "road_height":
-            return None
-        height, slope = cosine_bump(self.speed * (time - self.start) + place.x, self.height, self.length)
+            return held_speed(place.quantity, self.speed, time)
+        height, slope = self.profile(self.speed * time + place.x)
         return height, slope * self.speed
+
+    def profile(self, x: np.ndarray) -> HeightAndSlope:
+        """Height [m] and slope at places x [m] along the road."""
+        return cosine_bump(x - self.speed * self.start, self.height, self.length)
+
+    def road(self) -> Road:
+        begin = self.speed * self.start
+        feature = {"kind": "bump", "x": [begin, begin + self.length], "height": self.height}
+        return sampled(lambda x, y: self.profile(x)[0], begin, begin + self.length, features=(feature,))
 
 
 if __name__ == "__main__":

@@ -8,12 +8,16 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import model_validator
 
+from manoeuvres.driving import held_speed
+from manoeuvres.surface import sampled
 from susp_mj.description import wrong
 from susp_mj.errors import InputError
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
-from susp_mj.roads import ROAD_CLASSES, RandomTracks
+from susp_mj.roads import ROAD_CLASSES, RandomTracks, Road
 from susp_mj.units import NonNegativeLength, PositiveLength, PositiveSpeed, PositiveTime
+
+_LONGEST_SURFACE = 20e3  # m
 
 
 class RandomRoad(Manoeuvre):
@@ -29,6 +33,7 @@ class RandomRoad(Manoeuvre):
         seed: of the random phases.
         longest, shortest: wavelengths [m].
         lead_in: length over which the road fades in [m].
+        track: distance of the two tracks [m] for a car that drives freely; other models have their wheels' places.
 
     Source: ISO 8608:2016; coherence: see `susp_mj.roads.RandomTracks`.
     """
@@ -43,6 +48,7 @@ class RandomRoad(Manoeuvre):
     longest: PositiveLength = 100.0
     shortest: PositiveLength = 0.1
     lead_in: NonNegativeLength = 10.0
+    track: PositiveLength = 1.4
 
     @model_validator(mode="after")
     def _sensible(self) -> RandomRoad:
@@ -56,13 +62,23 @@ class RandomRoad(Manoeuvre):
 
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
         if place.quantity != "road_height":
-            return None
-        if self.speed * float(time[-1]) > 1e6 or self.longest > 1e5:
-            raise InputError("is too long; allowed are 1000 km of road and waves of 100 km", key="speed", source="manoeuvre")
-        length = self.speed * float(time[-1]) + self.longest
-        tracks = _tracks(self.road_class, length, self.longest, self.shortest, self.lead_in, self.seed)
-        height, slope = tracks.at(self.speed * time + place.x, place.y)
+            return held_speed(place.quantity, self.speed, time)
+        height, slope = self._road_tracks(float(time[-1])).at(self.speed * time + place.x, place.y)
         return height, slope * self.speed
+
+    def road(self) -> Road:
+        distance = self.speed * self.duration
+        if distance > _LONGEST_SURFACE:
+            raise InputError(f"is too long; a car that drives freely has {_LONGEST_SURFACE / 1e3:g} km", key="duration", source="manoeuvre")
+        tracks, half = self._road_tracks(self.duration), self.track / 2
+        feature = {"kind": "random", "road_class": self.road_class, "x": [0.0, distance]}
+        return sampled(lambda x, y: tracks.at(x, y)[0], 0.0, distance + 10.0, (-half, half), (feature,))
+
+    def _road_tracks(self, duration: float) -> RandomTracks:
+        if self.speed * duration > 1e6 or self.longest > 1e5:
+            raise InputError("is too long; allowed are 1000 km of road and waves of 100 km", key="speed", source="manoeuvre")
+        length = self.speed * duration + self.longest
+        return _tracks(self.road_class, length, self.longest, self.shortest, self.lead_in, self.seed)
 
 
 @functools.lru_cache(maxsize=4)

@@ -6,9 +6,11 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from manoeuvres.driving import held_speed
+from manoeuvres.surface import sampled
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
-from susp_mj.roads import cosine_bump
+from susp_mj.roads import HeightAndSlope, Road, cosine_bump
 from susp_mj.units import Length, PositiveLength, PositiveSpeed, PositiveTime, Time
 
 
@@ -38,10 +40,20 @@ class UnevenRoad(Manoeuvre):
 
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
         if place.quantity != "road_height":
-            return None
-        side = self.right_height if place.y < 0 else self.left_height
-        height, slope = cosine_bump(self.speed * (time - self.start) + place.x, side, self.length)
+            return held_speed(place.quantity, self.speed, time)
+        height, slope = self.profile(self.speed * time + place.x, place.y)
         return height, slope * self.speed
+
+    def profile(self, x: np.ndarray, y: float) -> HeightAndSlope:
+        """Height [m] and slope at places x [m] along the road, left (y >= 0) or right."""
+        return cosine_bump(x - self.speed * self.start, self.right_height if y < 0 else self.left_height, self.length)
+
+    def road(self) -> Road:
+        begin = self.speed * self.start
+        x = [begin, begin + self.length]
+        bumps = (("left", self.left_height, [0.0, 2.0]), ("right", self.right_height, [-2.0, 0.0]))
+        features = tuple({"kind": "bump", "x": x, "y": y, "side": side, "height": height} for side, height, y in bumps)
+        return sampled(lambda x, y: self.profile(x, y)[0], begin, begin + self.length, (-0.1, 0.1), features)
 
 
 if __name__ == "__main__":

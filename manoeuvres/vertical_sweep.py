@@ -8,6 +8,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import model_validator
 
+from manoeuvres.sweeping import Sweep
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
@@ -75,25 +76,23 @@ class VerticalSweep(Manoeuvre):
 
     def _sine(self, time: np.ndarray) -> ValueAndRate:
         """Height and rate of the sweep under the first wheel."""
-        phase, frequency = self._phase(time), self._frequency(time)
+        value, rate = self._sweep.sine(time)
+        if not self.constant_speed:
+            return self.amplitude * value, self.amplitude * rate
         growth = np.log(self.end_frequency / self.start_frequency) / self.duration
-        amplitude = self.amplitude * (self.start_frequency / frequency if self.constant_speed else np.ones_like(time))
-        amplitude_rate = -growth * amplitude if self.constant_speed else np.zeros_like(time)
-        progress = np.clip(time * self.start_frequency, 0.0, 1.0)
-        fade, fade_rate = (1 - np.cos(np.pi * progress)) / 2, np.pi / 2 * self.start_frequency * np.sin(np.pi * progress)
-        height = fade * amplitude * np.sin(phase)
-        rate = fade * (amplitude * 2 * np.pi * frequency * np.cos(phase) + amplitude_rate * np.sin(phase))
-        return height, rate + fade_rate * amplitude * np.sin(phase)
+        amplitude = self.amplitude * self.start_frequency / self._sweep.frequency(time)
+        return amplitude * value, amplitude * (rate - growth * value)
 
     def record(self, time: np.ndarray) -> dict[str, np.ndarray]:
-        return {"excitation_phase": self._phase(time), "excitation_frequency": self._frequency(time)}
+        return self._sweep.record(time)
 
-    def _frequency(self, time: np.ndarray) -> np.ndarray:
-        return self.start_frequency * (self.end_frequency / self.start_frequency) ** (time / self.duration)
+    def driving_speed(self) -> float:
+        """Zero: a car stands on a test rig that delays the rear wheels' road, whatever the speed."""
+        return 0.0
 
-    def _phase(self, time: np.ndarray) -> np.ndarray:
-        ratio = self.end_frequency / self.start_frequency
-        return 2 * np.pi * self.start_frequency * self.duration / np.log(ratio) * (ratio ** (time / self.duration) - 1)
+    @property
+    def _sweep(self) -> Sweep:
+        return Sweep(self.start_frequency, self.end_frequency, self.duration)
 
 
 if __name__ == "__main__":

@@ -14,64 +14,26 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
 import mujoco
 import numpy as np
+from bench_handling import against_commonroad, handling
+from measuring import REPEATS, Result, callback_cost, quickest, ratio
 from scipy.integrate import solve_ivp
 
 from manoeuvres import Bump
 from susp_mj import simulate
-from susp_mj.compiled import attach_input, input_block, install, uninstall
+from susp_mj.compiled import input_block
 from susp_mj.plant import Plant
 from susp_mj.simulation import sample_inputs
+from susp_mj.trim import Blocks
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
 from tests.verification.reference import QuarterCar, bump_road, constant_frequency_spring, zoned_damper
-
-REPEATS = 9
-
-
-@dataclass(frozen=True)
-class Result:
-    """One measured figure and its limit, None for information only; `more` says that more is better."""
-
-    text: str
-    value: float
-    limit: float | None
-    unit: str
-    more: bool = False
-
-    @property
-    def met(self) -> bool:
-        """Whether the figure is on the right side of its limit."""
-        if self.limit is None:
-            return True
-        return self.value >= self.limit if self.more else self.value <= self.limit
-
-    def __str__(self) -> str:
-        figure = f"{self.text:<78} {self.value:8.2f} {self.unit:<3}"
-        if self.limit is None:
-            return figure
-        return f"{figure} (limit {'>=' if self.more else '<='} {self.limit:g} {self.unit}) {'met' if self.met else 'MISSED'}"
-
-
-def seconds(action: Callable[[], object]) -> float:
-    """Wall time of one call [s]."""
-    start = time.perf_counter()
-    action()
-    return time.perf_counter() - start
-
-
-def ratio(first: Callable[[], object], second: Callable[[], object], repeats: int = REPEATS) -> float:
-    """Median of time(first) / time(second), taken in turn."""
-    first()
-    second()
-    return statistics.median(seconds(first) / seconds(second) for _ in range(repeats))
 
 
 def quarter_car() -> tuple[Plant, Bump]:
@@ -84,38 +46,26 @@ def whole_car() -> tuple[Plant, Bump]:
     return build(load_vehicle("s_class", "configuration_4"), "full_7dof"), Bump(height=0.05, length=4.0, speed=80 / 3.6)
 
 
-def callback_cost(name: str, plant: Plant, manoeuvre: Bump, limit: float) -> Result:
+def callbacks(name: str, plant: Plant, manoeuvre: Bump, limit: float) -> Result:
     """The same MJCF stepped with the compiled callbacks and without."""
     block = input_block(sample_inputs(plant, manoeuvre, np.arange(6001) * 5e-4), 5e-4, plant.entries())
-
-    def stepped(prepare: Callable[[], None]) -> float:
-        prepare()
-        data = mujoco.MjData(plant.model)
-        attach_input(data, block)
-        return seconds(lambda: mujoco.mj_step(plant.model, data, nstep=3000))
-
-    with_callbacks, bare = lambda: install(plant.laws), uninstall
-    stepped(with_callbacks)
-    measured = statistics.median(stepped(with_callbacks) / stepped(bare) for _ in range(3 * REPEATS))
-    install(plant.laws)
+    measured = callback_cost(plant, mujoco.MjData(plant.model), Blocks(block), 3000, 3 * REPEATS)
     return Result(f"{name} bump 3 s at 1 ms: compiled callbacks / the same MJCF without them", measured, limit, "x")
 
 
 def real_time() -> Result:
     """How many times faster than the clock the whole car runs, recording included, on one core.
 
-    The one figure that is not a ratio of two programs: of an absolute time the quickest repetition is the one that the rest
-    of the machine disturbed least.
+    Not a ratio of two programs, hence the quickest repetition.
     """
     plant, manoeuvre = whole_car()
-    simulate(plant, manoeuvre, step=1e-3)
-    taken = min(seconds(lambda: simulate(plant, manoeuvre, step=1e-3)) for _ in range(4 * REPEATS))
+    taken = quickest(lambda: simulate(plant, manoeuvre, step=1e-3), 4 * REPEATS)
     return Result("OM7 bump 3 s at 1 ms, recorded: simulated / real time", manoeuvre.duration / taken, 60.0, "x", more=True)
 
 
 def cars() -> list[Result]:
     """Cost of the callbacks and speed of the whole car."""
-    return [callback_cost("OM5", *quarter_car(), 1.25), callback_cost("OM7", *whole_car(), 1.3), real_time()]
+    return [callbacks("OM5", *quarter_car(), 1.25), callbacks("OM7", *whole_car(), 1.3), real_time()]
 
 
 def numpy_rates(manoeuvre: Bump) -> Callable[[float, np.ndarray], np.ndarray]:
@@ -204,7 +154,10 @@ def command(*arguments: str) -> tuple[float, float]:
 
 
 def commands() -> list[Result]:
-    """Whole commands: a warm run of the chapter 3 case, the help, peak memory."""
+    """Whole commands: a warm run of the chapter 3 case, the help, peak memory.
+
+    They come first: a process starts with the peak memory of the one that starts it.
+    """
     with tempfile.TemporaryDirectory() as folder:
         command("run", "chapter3", "--out", folder)
         runs = [command("run", "chapter3", "--out", folder) for _ in range(5)]
@@ -219,10 +172,10 @@ def commands() -> list[Result]:
 def main() -> None:
     """Print every figure beside its limit; exit code 1 if one is not met."""
     missed = 0
-    for group in (cars, against_scipy, commands):
+    for group in (commands, cars, handling, against_scipy, against_commonroad):
         for result in group():
             print(result, flush=True)
-            missed += not result.met
+            missed += isinstance(result, Result) and not result.met
     print(f"this process' peak memory: {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")
     sys.exit(1 if missed else 0)
 

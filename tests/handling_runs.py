@@ -14,6 +14,10 @@ from susp_mj.meaning import Input
 from susp_mj.names import CORNERS
 from susp_mj.run import Run, described
 
+_ZERO = (
+    *("position_x", "position_y", "yaw_angle", "yaw_rate", "side_slip_angle", "rear_side_slip_angle", "lateral_acceleration"),
+    *("longitudinal_acceleration", "body_displacement", "body_acceleration", "roll_angle", "pitch_angle"),
+)
 STATIC = {"fl": 5500.0, "fr": 5500.0, "rl": 5000.0, "rr": 5000.0}
 
 
@@ -25,10 +29,7 @@ def driven(manoeuvre: Manoeuvre, quantity: str, time: np.ndarray) -> np.ndarray:
 
 def made_up(manoeuvre: Manoeuvre, time: np.ndarray, facts: dict[str, float] | None = None, **channels: np.ndarray) -> Run:
     """A run of a freely driving car; channels that are not given are zero, wheel loads static. Names with a station are per wheel."""
-    values = dict.fromkeys(
-        ("position_x", "position_y", "yaw_angle", "yaw_rate", "side_slip_angle", "rear_side_slip_angle", "lateral_acceleration"), 0.0 * time
-    )
-    values |= dict.fromkeys(("longitudinal_acceleration", "body_displacement", "body_acceleration", "roll_angle", "pitch_angle"), 0.0 * time)
+    values = dict.fromkeys(_ZERO, 0.0 * time)
     values |= {name: driven(manoeuvre, name, time) for name in ("steering_wheel_angle", "accelerator", "brake_pedal", "wind_y")}
     values["speed"] = np.full_like(time, manoeuvre.driving_speed())
     for corner in CORNERS:

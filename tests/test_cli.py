@@ -12,7 +12,9 @@ import pytest
 from typer.testing import CliRunner
 
 from design.cli import app
+from design.script import default_model
 from evaluation import video
+from manoeuvres import find_manoeuvre
 from susp_mj import InputError
 
 ROOT = Path(__file__).parent.parent
@@ -155,8 +157,10 @@ def test_new_makes_a_car_that_can_be_shown_built_and_driven(tmp_path):
 @pytest.mark.parametrize("name", sorted(path.stem for path in (ROOT / "manoeuvres").glob("*.py") if "__main__" in path.read_text()))
 def test_a_manoeuvre_is_a_script(tmp_path, name):
     sets = ("configuration_3", "configuration_4")
-    options = ("--vehicle", "s_class", "-m", "full_3dof", "-c", sets[0], "-c", sets[1], "--duration", "2 s")
-    result = script(name, *options, cwd=tmp_path)
+    model = default_model(find_manoeuvre("step" if name == "road_step" else name))
+    options = () if model == "handling" else ("-m", "full_3dof")
+    length = "8 s" if name in ("braking_in_turn", "swept_steer", "lenksweep", "suspension_rig", "steady_circle") else "2 s"
+    result = script(name, "--vehicle", "s_class", *options, "-c", sets[0], "-c", sets[1], "--duration", length, cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     (summary,) = tmp_path.rglob("summary.json")
     assert [each["configuration"] for each in json.loads(summary.read_text())["configurations"]] == list(sets)

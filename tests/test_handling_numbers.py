@@ -181,10 +181,13 @@ def test_no_wheel_lifts():
 
 def test_a_table_says_side_by_side_who_lifts(slow_ramp):
     table = turning_table(compared(slow_ramp, CAR.run(RampSteer(limit="60 deg"))))
-    assert table.headings[0] == "configuration" and table.headings[-1] == "wheels that lift"
-    assert [row[0] for row in table.rows] == ["configuration 3", "configuration 4"]
-    assert table.rows[0][-1].startswith("fl at ") and table.rows[1][-1] == "none"
-    assert all(len(row) == len(table.headings) for row in table.rows)
+    assert table.names == ("configuration 3", "configuration 4")
+    word, lifted, stays = table.rows[-1]
+    assert word == "wheels that lift" and lifted.startswith("fl at ") and stays == "none"
+    assert all(len(row) == 3 for row in table.rows)
+    texts = dict((row[0], row[1]) for row in table.rows)
+    assert texts["least load of the inner front wheel"] == "0.000 kN"
+    assert texts["roll at 4 m/s²"] == f"{math.degrees(cornering.roll_angle_at_4(slow_ramp).value):.2f} °"
     assert turning_table(compared(CAR.run(RampSteer(limit="10 deg")))) is None
 
 

@@ -1,0 +1,69 @@
+"""Table of roll and wheel lift of several configurations side by side, as text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from susp_mj.run import Run
+
+from . import attitude, cornering, ride, wheel_lift
+from .compare import Comparison
+from .display import quantity_text
+from .handling import drives, kind
+from .number import Evaluate
+
+ROWS: tuple[tuple[str, Evaluate], ...] = (
+    ("largest lateral acceleration", cornering.lateral_acceleration_max),
+    ("roll at 4 m/s²", cornering.roll_angle_at_4),
+    ("roll at 7 m/s²", cornering.roll_angle_at_7),
+    ("largest roll", attitude.roll_angle_max),
+    ("least load of the inner front wheel", wheel_lift.inner_wheel_load_front),
+    ("least load of the inner rear wheel", wheel_lift.inner_wheel_load_rear),
+    ("rebound travel left, front", ride.travel_left_rebound_front),
+    ("rebound travel left, rear", ride.travel_left_rebound_rear),
+)
+"""Word and number of the rows above the one that says what lifts."""
+LIFTING = "wheels that lift"
+_TURNS = 4.0
+
+
+@dataclass(frozen=True)
+class TurningTable:
+    """A column of texts for each configuration.
+
+    Attributes:
+        names: of the configurations.
+        rows: word of the row, then a text for each configuration.
+    """
+
+    names: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def turning_table(comparison: Comparison) -> TurningTable | None:
+    """Roll, inner wheel loads, travel left and which wheel lifts, by configuration.
+
+    None unless every configuration drives freely and one of them turns with at least 4 m/s², without braking straight on.
+    """
+    runs = [each.run for each in comparison.configurations]
+    if not runs or not all(drives(run) for run in runs) or kind(runs[0]) in ("braking", "split_mu", "acceleration"):
+        return None
+    if max(float(np.abs(run["lateral_acceleration"]).max()) for run in runs) < _TURNS:
+        return None
+    rows = []
+    for word, number in ROWS:
+        found = [number(run) for run in runs]
+        if any(each.applies for each in found):
+            rows.append((word, *(quantity_text(each.value, each.unit) for each in found)))
+    rows.append((LIFTING, *(lifting(run) for run in runs)))
+    return TurningTable(tuple(each.name for each in comparison.configurations), tuple(rows))
+
+
+def lifting(run: Run) -> str:
+    """Which wheels lift, when, at which lateral acceleration and for how long, in words."""
+    found = wheel_lift.lifts(run)
+    if not found:
+        return "none"
+    return "; ".join(f"{each.station} at {each.time:.2f} s, {each.acceleration:.1f} m/s², for {each.lasts:.2f} s" for each in found)

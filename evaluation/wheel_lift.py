@@ -1,0 +1,101 @@
+"""Numbers of wheels that lift in a turn: which one, when, at which lateral acceleration, for how long, and how near the others come."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from susp_mj.run import Run
+
+from .handling import drives, first, followed, inner, lasting, missing
+from .number import Number
+from .ride import CONTACT_LOST
+
+TURNING = 1.0
+"""Lateral acceleration [m/s²] from which on a wheel is an inner one."""
+NONE_LIFTS = "no wheel lifts"
+
+
+@dataclass(frozen=True)
+class Lift:
+    """A wheel that lifts.
+
+    Attributes:
+        station: the wheel.
+        at: index of the first record off the road.
+        time: when that is [s].
+        acceleration: lateral acceleration there [m/s²], without sign.
+        lasts: time off the road, summed over the run [s].
+    """
+
+    station: str
+    at: int
+    time: float
+    acceleration: float
+    lasts: float
+
+
+def lifts(run: Run) -> list[Lift]:
+    """Wheels that lift, in their order of time."""
+    found = []
+    for station, load in run.stations("wheel_load").items():
+        off = load[: followed(run)] <= CONTACT_LOST
+        at = first(off)
+        if at is not None:
+            acceleration = abs(float(run["lateral_acceleration"][at]))
+            found.append(Lift(station, at, float(run.time[at]), acceleration, lasting(off, run.step)))
+    return sorted(found, key=lambda each: each.at)
+
+
+def wheel_lift_time(run: Run) -> Number:
+    """Time for which a wheel is lifted, the one that is lifted longest [s]; 0 if none lifts."""
+    if not _turns(run):
+        return missing("s", "does not turn")
+    longest = max(lifts(run), key=lambda each: each.lasts, default=None)
+    return Number(0.0, "s", NONE_LIFTS) if longest is None else Number(longest.lasts, "s", longest.station)
+
+
+def wheel_lift_instant(run: Run) -> Number:
+    """First instant at which a wheel lifts [s]; no value if none does."""
+    if not _turns(run):
+        return missing("s", "does not turn")
+    found = lifts(run)
+    return Number(found[0].time, "s", found[0].station) if found else Number(None, "s", NONE_LIFTS)
+
+
+def wheel_lift_acceleration(run: Run) -> Number:
+    """Lateral acceleration at which the first wheel lifts [m/s²]; no value if none does."""
+    if not _turns(run):
+        return missing("m/s²", "does not turn")
+    found = lifts(run)
+    return Number(found[0].acceleration, "m/s²", found[0].station) if found else Number(None, "m/s²", NONE_LIFTS)
+
+
+def inner_wheel_load_front(run: Run) -> Number:
+    """Smallest load of the inner front wheel in the turn [N]."""
+    return _inner_load(run, 0)
+
+
+def inner_wheel_load_rear(run: Run) -> Number:
+    """Smallest load of the inner rear wheel in the turn [N]."""
+    return _inner_load(run, 1)
+
+
+def _inner_load(run: Run, order: int) -> Number:
+    """Smallest load of an inner wheel while the car turns to the side of its largest lateral acceleration."""
+    if not _turns(run):
+        return missing("N", "does not turn")
+    station = inner(run)[order]
+    last = followed(run)
+    acceleration = np.abs(run["lateral_acceleration"][:last])
+    loads = np.where(acceleration >= TURNING, run[f"{station}_wheel_load"][:last], np.inf)
+    at = int(np.argmin(loads))
+    return Number(float(loads[at]), "N", f"{station} at {acceleration[at]:.1f} m/s²")
+
+
+def _turns(run: Run) -> bool:
+    """Whether the car drives freely through a turn."""
+    if not drives(run) or "fl_wheel_load" not in run:
+        return False
+    return bool(np.abs(run["lateral_acceleration"]).max() >= TURNING)

@@ -1,0 +1,58 @@
+"""Straight road that leans to one side (Querneigung)."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+
+from manoeuvres.driving import Driving
+from susp_mj.driver import Driver, Path
+from susp_mj.roads import Road, cosine_ramp
+from susp_mj.units import PositiveLength, PositiveSpeed, PositiveTime, Quantity
+
+_SPACING = 0.5  # m
+_HALF_WIDTH = 50.0  # m
+
+
+class CrossSlope(Driving):
+    """Driving along a road with a cross slope, the steering wheel held or a driver keeping the car straight.
+
+    For the drift down the slope, or the steering that holds against it.
+
+    Attributes:
+        slope: rise per metre to the left; positive drifts to the right.
+        transition: length over which the level road comes to lean [m].
+        steered: whether a driver keeps the car straight; otherwise the steering wheel is held.
+        speed: [m/s].
+        start: when the front axle reaches the transition [s].
+
+    Source: the values are ours; 2.5 % is the usual drainage slope of a road.
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("speed_target",)
+
+    kind: Literal["cross_slope"] = "cross_slope"
+    duration: PositiveTime = 6.0
+    speed: PositiveSpeed = 100 / 3.6
+    slope: Annotated[float, Quantity("", ge=-0.3, le=0.3)] = 0.025
+    transition: PositiveLength = 20.0
+    steered: bool = False
+
+    def road(self) -> Road:
+        begin = self.speed * self.start
+        x = begin + _SPACING * np.arange(-2, int(np.ceil(self.transition / _SPACING)) + 3)
+        lean, _ = cosine_ramp((x - begin) / self.transition, self.slope)
+        y = np.array([-_HALF_WIDTH, _HALF_WIDTH])
+        return Road(
+            x, y, np.outer(lean, y), features=({"kind": "cross_slope", "slope": self.slope, "x": [begin, begin + self.transition]},)
+        )
+
+    def driver(self) -> Driver | None:
+        return Driver(Path()) if self.steered else None
+
+
+if __name__ == "__main__":
+    from design.cli import manoeuvre_script
+
+    manoeuvre_script("cross_slope")

@@ -1,0 +1,57 @@
+"""Base of manoeuvres of a car that drives freely, and the courses of steering wheel and pedals that they share."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+import numpy as np
+
+from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
+from susp_mj.meaning import Input
+from susp_mj.roads import cosine_ramp
+from susp_mj.units import PositiveSpeed, Quantity, Time
+
+Angle = Annotated[float, Quantity("rad")]
+PositiveAngle = Annotated[float, Quantity("rad", gt=0)]
+Pedal = Annotated[float, Quantity("", ge=0, le=1)]
+
+
+class Driving(Manoeuvre):
+    """A car that drives freely at a speed that its controller holds; a subclass adds what the driver does.
+
+    Attributes:
+        speed: held by the speed controller [m/s].
+        start: when the driver begins [s].
+    """
+
+    needs: ClassVar[tuple[str, ...]] = ("steering_wheel_angle",)
+
+    speed: PositiveSpeed = 72 / 3.6
+    start: Time = 0.5
+
+    def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
+        return held_speed(place.quantity, self.speed, time)
+
+
+def constant(value: float, time: np.ndarray) -> ValueAndRate:
+    """A value that never changes."""
+    return np.full(time.shape, float(value)), np.zeros(time.shape)
+
+
+def held_speed(quantity: str, speed: float, time: np.ndarray) -> ValueAndRate | None:
+    """Target and switch of the speed controller that holds a speed [m/s]; None for any other quantity."""
+    if quantity == "speed_target":
+        return constant(speed, time)
+    return constant(1.0, time) if quantity == "speed_control" else None
+
+
+def risen(time: np.ndarray, start: float, duration: float, level: float) -> ValueAndRate:
+    """Half a cosine from 0 to `level` within `duration` [s] after `start` [s], then constant."""
+    value, slope = cosine_ramp((time - start) / duration, level)
+    return value, slope / duration
+
+
+def fallen(time: np.ndarray, start: float, duration: float, level: float) -> ValueAndRate:
+    """Half a cosine from `level` to 0 within `duration` [s] after `start` [s]."""
+    value, rate = risen(time, start, duration, level)
+    return level - value, -rate

@@ -1,0 +1,32 @@
+"""Roads of manoeuvres as sampled surfaces, for a car that drives freely."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from susp_mj.roads import Road
+
+SPACING = 0.02
+"""Distance of samples along the road [m]; the cubic through them follows a wavelength of 0.2 m within 0.4 %."""
+
+
+def sampled(
+    height: Callable[[np.ndarray, float], np.ndarray],
+    begin: float,
+    end: float,
+    across: tuple[float, ...] = (0.0,),
+    features: tuple[Mapping[str, Any], ...] = (),
+) -> Road:
+    """Road from a height over place and lateral position; it goes on as at its ends.
+
+    Args:
+        height: height [m] at places x (n,) [m] and one lateral position y [m].
+        begin, end: what to sample along the road [m]; a few samples more are taken on both sides.
+        across: lateral positions [m], one, or two for a left and a right track.
+        features: what a picture of the road shows.
+    """
+    x = begin + SPACING * np.arange(-4, int(np.ceil((end - begin) / SPACING)) + 5)
+    return Road(x, np.array(across), np.column_stack([height(x, y) for y in across]), features=features)
