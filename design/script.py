@@ -13,15 +13,17 @@ from susp_mj.description import validate
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.units import unit_of
 from vehicles.mjcf import HANDLING, K_AND_C, MODELS
-from vehicles.vehicle import DESIGN_LOAD
+from vehicles.vehicle import DESIGN_LOAD, find_vehicle, read_toml
 
-from .case import Case
+from .case import Case, with_film
 
 DEFAULT_VEHICLE, DEFAULT_MODEL = "chapter3", "quarter_2dof"
 WHOLE_CAR, WHOLE_CAR_SETS = "s_class", ("configuration_3", "configuration_4")
 """Car and sets of characteristics of models that need more than a quarter of a car."""
 BODY_MODELS = {"lateral_force": "full_3dof", "longitudinal_force": "full_3dof", "roll_angle": "full_3dof"}
 """Manoeuvres that act on the body of an oscillation model -> their model."""
+TEST_LOAD = "empty"
+"""Load case in which handling is tested: the car in running order with its driver."""
 
 
 def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path, Path, bool]:
@@ -37,9 +39,10 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
     if not vehicles:
         quarter = options["model"].startswith("quarter")
         vehicles, chosen_sets = ([DEFAULT_VEHICLE], chosen_sets) if quarter else ([WHOLE_CAR], chosen_sets or list(WHOLE_CAR_SETS))
+    loads = {vehicle: options["load"] or [_default_load(kind, vehicle)] for vehicle in vehicles}
     settings = [
         dict(
-            name=_label(vehicles, vehicle, sets, load, options["load"]),
+            name=_label(vehicles, vehicle, sets, load, loads[vehicle]),
             vehicle=_absolute(vehicle),
             characteristics=sets,
             load=load,
@@ -47,7 +50,7 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
         )
         for vehicle in vehicles
         for sets in chosen_sets or [None]
-        for load in options["load"]
+        for load in loads[vehicle]
     ]
     case = validate(
         Case,
@@ -59,7 +62,16 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
         },
         source=f"{kind}.py",
     )
+    case = with_film(case, options["camera"], ghost=options["ghost"], fine=options["fine"])
     return case, Path(f"{kind}.py"), options["out"], options["video"]
+
+
+def _default_load(kind: str, vehicle: str) -> str:
+    """The test load of a car that drives, if it has one; the design position otherwise."""
+    if default_model(kind) != HANDLING:
+        return DESIGN_LOAD
+    loads = read_toml(find_vehicle(vehicle)).get("loads", {})
+    return TEST_LOAD if isinstance(loads, dict) and TEST_LOAD in loads else DESIGN_LOAD
 
 
 def default_model(kind: str) -> str:
@@ -82,12 +94,16 @@ def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=f"{kind}.py", description=(manoeuvre.__doc__ or "").split("\n\n")[0], allow_abbrev=False)
     parser.add_argument("--vehicle", action="append", help=f"car or vehicle file, repeatable (default {DEFAULT_VEHICLE} or {WHOLE_CAR})")
     parser.add_argument("--characteristics", "-c", action="append", help="set of characteristics of the car, repeatable")
-    parser.add_argument("--load", nargs="+", default=[DESIGN_LOAD], help="load cases (default ko)")
     model = default_model(kind)
+    load = f"{TEST_LOAD} where the car has it, as ISO 15037-1 asks for, else {DESIGN_LOAD}" if model == HANDLING else DESIGN_LOAD
+    parser.add_argument("--load", nargs="+", help=f"load cases (default {load})")
     parser.add_argument("--model", "-m", default=model, help=f"{', '.join(MODELS)} (default {model})")
     parser.add_argument("--axle", choices=("front", "rear"))
     parser.add_argument("--out", "-o", type=Path, default=Path("out") / kind, help=f"folder for the results (default out/{kind})")
     parser.add_argument("--video", action="store_true", help="also render an animation")
+    parser.add_argument("--camera", choices=("chase", "front", "side"), help="of a driving car (default: what suits the manoeuvre)")
+    parser.add_argument("--ghost", action="store_true", help="two driving cars in one scene")
+    parser.add_argument("--fine", action="store_true", help="finer pictures of driving cars")
     group = parser.add_argument_group("parameters", "a number in SI, or a text with its unit like '80 mm'")
     for name, field in manoeuvre.model_fields.items():
         if name != "kind":

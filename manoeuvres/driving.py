@@ -22,12 +22,14 @@ class Driving(Manoeuvre):
     Attributes:
         speed: held by the speed controller [m/s].
         start: when the driver begins [s].
+        grip: friction of the whole road, as a factor on what the tyre was measured with: 1 a dry test surface, about 0.7 wet.
     """
 
     needs: ClassVar[tuple[str, ...]] = ("steering_wheel_angle",)
 
     speed: PositiveSpeed = 72 / 3.6
     start: Time = 0.5
+    grip: Annotated[float, Quantity("", gt=0, le=3)] = 1.0
 
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
         return held_speed(place.quantity, self.speed, time)

@@ -27,9 +27,9 @@ class RampSteer(Driving):
     """
 
     kind: Literal["ramp_steer"] = "ramp_steer"
-    duration: PositiveTime = 8.0
+    duration: PositiveTime = 10.0
     rate: Annotated[float, Quantity("rad/s")] = np.radians(25.0)
-    limit: PositiveAngle = np.radians(180.0)
+    limit: PositiveAngle = np.radians(360.0)
 
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
         if place.quantity != "steering_wheel_angle":

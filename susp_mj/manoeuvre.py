@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
@@ -52,6 +53,13 @@ class Manoeuvre(Description, ABC):
     def road(self) -> Road | None:
         """Road for a car that drives freely, its front axle at x = 0 when the run begins; None is level."""
         return None
+
+    def surface(self) -> Road | None:
+        """`road`, with the friction that the manoeuvre's `grip` gives all of it."""
+        from .roads import Road
+
+        road, grip = self.road(), float(getattr(self, "grip", 1.0))
+        return road if grip == 1.0 else dataclasses.replace(road or Road(), friction=grip)
 
     def driver(self) -> Driver | None:
         """Driver who steers, instead of an open-loop steering input."""

@@ -131,6 +131,7 @@ class Road:
         height: (n, m) [m].
         patches: see `Patch`.
         cross_slope: rise per metre to the left [1].
+        friction: of the whole road, as a factor on what the tyre was measured with; the patches' factors come on top.
         features: what a picture of the road shows, plain JSON values.
     """
 
@@ -139,11 +140,13 @@ class Road:
     height: np.ndarray = field(default_factory=_flat)
     patches: tuple[Patch, ...] = ()
     cross_slope: float = 0.0
+    friction: float = 1.0
     features: tuple[Mapping[str, Any], ...] = ()
 
     def block(self) -> np.ndarray:
         """The road as the compiled car reads it; see `compiled.road`."""
         spacing_y = self.y[1] - self.y[0] if len(self.y) > 1 else 1.0
-        head = [self.x[0], self.x[1] - self.x[0], len(self.x), self.y[0], spacing_y, len(self.y), self.cross_slope, len(self.patches)]
+        head = [self.x[0], self.x[1] - self.x[0], len(self.x), self.y[0], spacing_y, len(self.y), self.cross_slope, self.friction]
+        head.append(len(self.patches))
         patches = [value for p in self.patches for value in (p.x_from, p.x_to, p.y_from, p.y_to, p.friction)]
         return np.concatenate([np.array(head, float), np.array(patches, float), np.asarray(self.height, float).ravel()])

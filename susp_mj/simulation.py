@@ -130,7 +130,7 @@ def _blocks(plant: Plant, manoeuvre: Manoeuvre, inputs: np.ndarray) -> Blocks:
     """What the compiled code reads during a run."""
     if not plant.contacts:
         return Blocks(inputs)
-    road, driver = manoeuvre.road(), manoeuvre.driver()
+    road, driver = manoeuvre.surface(), manoeuvre.driver()
     return Blocks(inputs, None if road is None else road.block(), None if driver is None or not plant.meaning.driving else driver.block())
 
 

@@ -345,13 +345,13 @@ def steered(head, wheel, data, angle, angle_rate):
 
 @plain
 def guided(wheel, base, state, travel, steer):
-    """Path of the contact patch and slopes, toe and camber with compliance and their slopes, as for the left wheel; slope of the swing."""
+    """Path of the contact patch and slopes, toe and camber with compliance and their slopes, swing and slope, as for the left wheel."""
     side = wheel[SIDE]
     out, out_slope, ahead, ahead_slope = both_looked_up(doubles(place_of(base, wheel[PATH])), travel)
     toe, toe_slope, camber, camber_slope = both_between(place_of(base, wheel[ANGLES]), travel, side * steer)
-    swing_slope = 0.0
+    swing, swing_slope = 0.0, 0.0
     if wheel[SWING] != 0.0:
-        _, swing_slope = looked_up(doubles(place_of(base, wheel[SWING])), travel)
+        swing, swing_slope = looked_up(doubles(place_of(base, wheel[SWING])), travel)
     if wheel[ELASTIC_LATERAL] != 0.0:
         more, _, lean, _ = both_looked_up(doubles(place_of(base, wheel[ELASTIC_LATERAL])), -side * state[STATE_FY])
         toe, camber = toe + more, camber + lean
@@ -361,7 +361,7 @@ def guided(wheel, base, state, travel, steer):
     if wheel[ELASTIC_ALIGNING] != 0.0:
         more, _ = looked_up(doubles(place_of(base, wheel[ELASTIC_ALIGNING])), -side * state[STATE_MZ])
         toe += more
-    return out, out_slope, ahead, ahead_slope, toe, toe_slope, camber, camber_slope, swing_slope
+    return out, out_slope, ahead, ahead_slope, toe, toe_slope, camber, camber_slope, swing, swing_slope
 
 
 @plain
@@ -382,9 +382,12 @@ def standing_on(wheel, road, r, hub, lift):
 
 
 @plain
-def oriented(r, heading, lean, normal):
-    """Axis of a wheel, its forward and leftward directions in the road's plane, and its camber to the road."""
-    sine, cosine = sine_cosine(heading)
+def oriented(r, sine, cosine, lean, normal):
+    """Axis of a wheel, its forward and leftward directions in the road's plane, and its camber to the road.
+
+    Args:
+        sine, cosine: of the wheel's heading in the body.
+    """
     lean_sine, lean_cosine = sine_cosine(lean)
     axis = turned(r, (-sine * lean_cosine, cosine * lean_cosine, lean_sine))
     forward = cross(axis, normal)
@@ -394,8 +397,11 @@ def oriented(r, heading, lean, normal):
 
 
 @plain
-def gripping(wheel, base, state, signals, camber, load, rolling, lateral, spin, friction, pressed, pedal):
-    """Forces of the tyre from its lagged slips, rates of its states, and the brake; returns brake torque and rolling radius."""
+def gripping(wheel, base, state, signals, camber, load, rolling, lateral, spin, swinging, friction, pressed, pedal):
+    """Forces of the tyre from its lagged slips, rates of its states, and the brake; returns brake torque and rolling radius.
+
+    The wheel turns with `spin` against the body; the brake rubs on the carrier, which turns with `swinging`.
+    """
     kappa, tangent = state[STATE_KAPPA], state[STATE_TAN]
     slip, tangent_slip = kappa, tangent
     if abs(rolling) < SLOW:
@@ -411,7 +417,7 @@ def gripping(wheel, base, state, signals, camber, load, rolling, lateral, spin, 
         settling = 0.5 * (1.0 + math.cos(math.pi * rolling / SLOW)) / HELD_TIME
         kappa_rate -= settling * (kappa - min(max(kappa, -HELD_SLIP), HELD_SLIP))
         tangent_rate -= settling * (tangent - min(max(tangent, -HELD_SLIP), HELD_SLIP))
-    torque, signals[BRAKE_RATE] = brake_torque(wheel[BRAKE_TORQUE], pedal, state[STATE_BRAKE], spin)
+    torque, signals[BRAKE_RATE] = brake_torque(wheel[BRAKE_TORQUE], pedal, state[STATE_BRAKE], spin - swinging)
     signals[KAPPA_RATE], signals[TAN_RATE] = kappa_rate, tangent_rate
     return torque, signals[ROLLING_RADIUS]
 
@@ -444,24 +450,29 @@ def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, veloc
     travel, travel_rate = doubles(data.actuator_length)[tyre], v[int(wheel[TRAVEL_FREEDOM])]
     spin = v[int(wheel[SPIN_FREEDOM])]
     steer, steer_rate = steered(head, wheel, data, angle, angle_rate)
-    out, out_slope, ahead, ahead_slope, toe, toe_slope, camber, camber_slope, swing_slope = guided(wheel, base, state, travel, steer)
+    out, out_slope, ahead, ahead_slope, toe, toe_slope, camber, camber_slope, swing, swing_slope = guided(
+        wheel, base, state, travel, steer
+    )  # fmt: skip
 
-    # the contact patch in body axes: it turns about the steering axis and moves along its path
+    # the contact patch in body axes: it turns about the steering axis and lies below the wheel's centre, which moves along its path;
+    # the path of the patch itself is that of a wheel held by its carrier, which swings about the lateral axis
     sine, cosine = sine_cosine(steer)
     arm_x, arm_y = -wheel[TRAIL], side * wheel[SCRUB]
     lever_x, lever_y = cosine * arm_x - sine * arm_y, sine * arm_x + cosine * arm_y
     patch_x, patch_y = lever_x - arm_x + ahead, lever_y - arm_y + side * out
-    place = (wheel[X] + patch_x, wheel[Y] + patch_y, wheel[Z] + travel)
+    place = (wheel[X] + patch_x + wheel[DESIGN_HEIGHT] * swing, wheel[Y] + patch_y, wheel[Z] + travel)
+    centre_slope = ahead_slope + wheel[DESIGN_HEIGHT] * swing_slope
     hub = turned(r, place)
     hub = (hub[0] + origin[0], hub[1] + origin[1], hub[2] + origin[2])
     normal, loaded, height, friction = standing_on(wheel, road, r, hub, doubles(data.ctrl)[tyre])
     lever = turned(r, (place[0], place[1], place[2] - loaded))
-    own = (ahead_slope * travel_rate - lever_y * steer_rate, side * out_slope * travel_rate + lever_x * steer_rate, travel_rate)
+    own = (centre_slope * travel_rate - lever_y * steer_rate, side * out_slope * travel_rate + lever_x * steer_rate, travel_rate)
     own, swept = turned(r, own), cross(spin_world, lever)
     moving = (velocity[0] + swept[0] + own[0], velocity[1] + swept[1] + own[1], velocity[2] + swept[2] + own[2])
 
     heading, lean = steer - side * toe, -side * camber
-    axis, forward, leftward, road_camber = oriented(r, heading, lean, normal)
+    heading_sine, heading_cosine = sine_cosine(heading)
+    axis, forward, leftward, road_camber = oriented(r, heading_sine, heading_cosine, lean, normal)
     pressed = wheel[RADIUS] - loaded
     press_rate = doubles(data.userdata)[USERDATA_HEADER + tyre] * normal[2] - dot(moving, normal)
     load = 0.0
@@ -470,11 +481,13 @@ def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, veloc
     rolling, lateral = dot(moving, forward), dot(moving, leftward)
     if head[RIG] == 0.0:
         torque, rolling_radius = gripping(
-            wheel, base, state, signals, road_camber, load, rolling, lateral, spin, friction, pressed, pedal
+            wheel, base, state, signals, road_camber, load, rolling, lateral, spin, swing_slope * travel_rate, friction, pressed, pedal
         )  # fmt: skip
+        on_carrier = torque
         about_axis = signals[MY] - signals[FX] * (rolling_radius - loaded)
     else:
         torque, rolling_radius = pushed_by_rig(wheel, data, state, signals, spin)
+        on_carrier = -signals[FX] * wheel[DESIGN_HEIGHT]  # the wheel is held by its brake
         about_axis = 0.0
     signals[ELASTIC_X_RATE] = (signals[FX] - state[STATE_FX]) / BUSHING_TIME
     signals[ELASTIC_Y_RATE] = (signals[FY] - state[STATE_FY]) / BUSHING_TIME
@@ -487,10 +500,10 @@ def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, veloc
     driving = drive * wheel[DRIVE_SHARE]
     applied[int(wheel[TRAVEL_FREEDOM])] = (
         push_body[2]
-        + push_body[0] * ahead_slope
+        + push_body[0] * centre_slope
         + push_body[1] * side * out_slope
-        - side * (twist_body[0] * camber_slope + twist_body[2] * toe_slope)
-        + driving * swing_slope
+        - side * ((heading_cosine * twist_body[0] + heading_sine * twist_body[1]) * camber_slope + twist_body[2] * toe_slope)
+        + on_carrier * swing_slope
     )
     if wheel[STEER_FREEDOM] >= 0.0:
         applied[int(wheel[STEER_FREEDOM])] = lever_x * push_body[1] - lever_y * push_body[0] + twist_body[2]

@@ -28,13 +28,13 @@ def _row(block, first, x_place, last, rows, row, spacing):
 @plain
 def road_at(block, x, y):
     """Height [m], slopes over x and y, and friction of `roads.Road.block` at a place [m]."""
-    columns, rows, patches = int(block[2]), int(block[5]), int(block[7])
+    columns, rows, patches = int(block[2]), int(block[5]), int(block[8])
     friction = 1.0
     for i in range(patches):
-        patch = 8 + 5 * i
+        patch = 9 + 5 * i
         if block[patch] <= x < block[patch + 1] and block[patch + 2] <= y < block[patch + 3]:
             friction = block[patch + 4]
-    first = 8 + 5 * patches
+    first = 9 + 5 * patches
     x_place = (x - block[0]) / block[1]
     y_place = min(max((y - block[3]) / block[4], 0.0), rows - 1.0)
     j = min(int(y_place), max(rows - 2, 0))
@@ -46,7 +46,7 @@ def road_at(block, x, y):
         if 0.0 < y_place < rows - 1.0:
             slope_y = (left - height) / block[4]
         height, slope_x = height + share * (left - height), slope_x + share * (left_slope - slope_x)
-    return height + block[6] * y, slope_x, slope_y + block[6], friction
+    return height + block[6] * y, slope_x, slope_y + block[6], friction * block[7]
 
 
 @plain

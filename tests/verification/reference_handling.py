@@ -13,7 +13,9 @@ centre of gravity, w the body's angular velocity and ``r = (X, Y, Z + z)`` a whe
 where H is the angular momentum of knuckle and wheel about the wheel's centre, ``e = (-sin d, cos d, 0)`` the spin axis, s the spin,
 ``W = w + d' e_z`` the knuckle's angular velocity and ``dH/dt = (J_k + J_t) W' + (J_s - J_t) ((W' . e) e + (W . e) W x e)
 + J_s (s' e + s W x e)``, the gyroscopic moment being its last part. Q are the partial velocities of the contact patch and the partial
-angular velocities of the wheel times the tyre's force and moment (Kane).
+angular velocities of the wheel times the tyre's force and moment (Kane). The spin is that against the body, which is what a drive
+shaft sees; the contact patch lies below the wheel's centre and moves along its path. A brake rubs on the carrier, which turns about the
+lateral axis as it travels, by ``theta(z)``: it adds ``T theta'`` to Q_z.
 
 The orientation is kept as yaw, pitch, roll (z, y, x); tables are splines of the given points, in two dimensions where they have two.
 Taken from the product are descriptions and the laws of single elements: springs, dampers, stops, friction, the tyre's contact law.
@@ -73,7 +75,7 @@ class AxleTables:
         given, elastic = axle.kinematics, axle.compliance
         z, steer = np.array(given.travel), np.array(given.steer)
         swing = (given.path("longitudinal_centre") - given.path("longitudinal")) / height
-        paths = np.column_stack([given.path("lateral"), given.path("longitudinal"), swing])
+        paths = np.column_stack([given.path("lateral"), given.path("longitudinal_centre"), swing])
         angles = [given.angles("toe"), given.angles("camber")]
         ends = "not-a-knot" if len(z) > 2 else "natural"
         self.over_steer: list[RectBivariateSpline] = []
@@ -270,7 +272,8 @@ class ReferenceCar:
         size = np.abs(rolling)
         kappa_rate = (spin * effective - rolling - size * s["kappa"]) / np.maximum(np.maximum(sigma_x, LEAST_RELAXATION), size * LEAST_TIME)
         tan_rate = (lateral - size * s["tangent"]) / np.maximum(np.maximum(sigma_y, LEAST_RELAXATION), size * LEAST_TIME)
-        bristle_rate = (spin - np.abs(spin) * s["bristle"]) / np.maximum(BRISTLE, np.abs(spin) * BRISTLE_TIME)
+        rubbing = spin - slope[2] * z_rate
+        bristle_rate = (rubbing - np.abs(rubbing) * s["bristle"]) / np.maximum(BRISTLE, np.abs(rubbing) * BRISTLE_TIME)
         braking = self.brake * self.input("brake_pedal", t)[0] * np.clip(s["bristle"] + BRISTLE_DAMPING * bristle_rate, -1, 1)
         velocity = turn @ v
         drive, engine_rate, integral_rate = self.drive(t, spin, s["engine"][0], s["integral"][0], math.hypot(velocity[0], velocity[1]))
@@ -286,7 +289,7 @@ class ReferenceCar:
         internal, rod_rate = np.array(between).T
         bar = np.array([self.bars[0] * (z[0] - z[1]) / 2, self.bars[1] * (z[2] - z[3]) / 2])
         internal = internal + np.array([bar[0], -bar[0], bar[1], -bar[1]])
-        q_travel = (push * partial_z + twist * turning_z).sum(0) + drive * self.driven * slope[2] - internal
+        q_travel = (push * partial_z + twist * turning_z).sum(0) + braking * slope[2] - internal
         steering = self.vehicle.steering
         angle, angle_rate = self.input("steering_wheel_angle", t)
         rack, rack_rate = (angle + self.trim_angle) / steering.ratio, angle_rate / steering.ratio
