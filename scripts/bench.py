@@ -117,7 +117,7 @@ def against_scipy() -> list[Result]:
     time_grid = np.arange(3001) * 1e-3
     at_rest = np.array([-4.9e-6, 0.0, 0.0, 0.0, -4.9e-6])
 
-    def theirs(rates: Callable[[float, np.ndarray], Sequence[float]], method: str, step: float) -> float:
+    def theirs(rates: Callable[[float, np.ndarray], Sequence[float] | np.ndarray], method: str, step: float) -> float:
         found = solve_ivp(
             lambda t, s: rates(t, s)[:5], (0, 3.0), at_rest, method=method, t_eval=time_grid, rtol=1e-7, atol=1e-9, max_step=step
         )

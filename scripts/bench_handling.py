@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.util
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from measuring import REPEATS, Result, callback_cost, quickest, ratio
@@ -29,10 +29,11 @@ NEWER_TYRE = {
     for key, value in (("kind", "magic_formula_61"), ("file", "mf61_205_60R15.tir"))
 }
 SHARED = StepSteer(duration=DURATION, angle=np.radians(40), rate=np.radians(300))
-"""The step steer that both programs drive. CommonRoad's wheels turn at 0.4 rad/s at most (0.37 here). Its tyres may pull on the road:
+"""The step steer that both programs drive. CommonRoad's wheels turn at 0.4 rad/s at most (0.36 here). Its tyres may pull on the road:
 after the 85° of our own figures the inner front wheel's load becomes negative and the solution grows without bounds within 3 s."""
 
-Rates = Callable[[np.ndarray, float], list[float]]
+State = Sequence[float] | np.ndarray
+Rates = Callable[[State, float], list[float]]
 
 
 def handling() -> list[Result]:
@@ -66,16 +67,17 @@ def _callbacks(plant: Plant) -> float:
 def against_commonroad() -> list[Result | str]:
     """The same step steer by the multi-body model of M. Althoff and G. Würsching (BSD licence), vehicle 2, in Python.
 
-    It is integrated as its users do: by odeint with its defaults as in its README, and with fixed steps. Odeint chooses long
-    steps once the car is on its circle; what it records are the states alone. Accelerations, as our records have them, take
-    one more evaluation per record.
+    It is integrated as its users do, by odeint with its defaults as in its README, and with fixed steps. Odeint takes long steps
+    once the car is on its circle, and what it records are states alone; accelerations, which our records have, take one more
+    evaluation per record.
 
-    The two cars are one car by their figures, yet CommonRoad's turns in by more at the same angle of the road wheels; about 15 %
-    in yaw rate at 2 m/s². Its tyre table lacks the influence of load, so load transfer costs no cornering stiffness (4 %). Its
-    shifts by camber change sign with it, ours belong to the side of the car on which the tyre is mounted (7 %). It has no aligning
-    moment (2 %). Without all three the yaw rates differ by 1 %. Ours rolls by 10 % more per lateral acceleration: the
-    wheels' centrifugal force at their centres is borne by body and springs (7 %), by CommonRoad's rigid axles it is not; the
-    turning wheels' gyroscopic moment (3 %) is not in CommonRoad's equations.
+    The two are one car by their figures, yet CommonRoad's turns in more sharply at equal angles of the road wheels: its yaw rate is
+    15 % higher at 2 m/s², 20 % at 4 m/s². At 2 m/s² 7 % of that are the tyre's shifts by camber, which change sign with it there and
+    belong to the side of the car here; 4 % the influence of load, which its tyre table lacks, so that load transfer costs no
+    cornering stiffness; 2 % the aligning moment, which it does not have. Without all three the yaw rates differ by 1 %.
+    Ours rolls by 10 % more per lateral acceleration: what accelerates the wheels sideways acts at their centres and is borne by the
+    body's springs (7 %), where its rigid axles bear it themselves; and the turning wheels' gyroscopic moment (3 %) is not in its
+    equations.
     """
     if importlib.util.find_spec("vehiclemodels") is None:
         return ["no comparison with CommonRoad: pip install commonroad-vehicle-models, or the extra 'bench'"]
@@ -125,7 +127,7 @@ def _commonroad(angle: float) -> tuple[Rates, list[float]]:
     rise, began, speed = SHARED.rise_time, SHARED.start, SHARED.speed
     peak = angle / rise * math.pi / 2
 
-    def rates(x: np.ndarray, t: float) -> list[float]:
+    def rates(x: State, t: float) -> list[float]:
         share = (t - began) / rise
         steering = peak * math.sin(math.pi * share) if 0.0 < share < 1.0 else 0.0
         return vehicle_dynamics_mb(x, [steering, 20.0 * (speed - math.hypot(x[3], x[10]))], parameters)
@@ -139,7 +141,7 @@ def _states(rates: Rates, start: list[float], time: np.ndarray) -> np.ndarray:
         return odeint(rates, start, time)
 
 
-def _stepped(rates: Rates, start: list[float], steps: int) -> list[float]:
+def _stepped(rates: Rates, start: Sequence[float], steps: int) -> Sequence[float]:
     """Classical Runge-Kutta on lists, which its scalar code takes three times as fast as arrays; returns the last state."""
     x, h = start, STEP
     for step in range(steps):

@@ -71,7 +71,9 @@ def callback_cost(plant: Plant, start: mujoco.MjData, blocks: Blocks, steps: int
         attach_input(data, blocks.inputs, blocks.road, blocks.driver)
         return seconds(lambda: mujoco.mj_step(plant.model, data, nstep=steps))
 
-    with_callbacks = lambda: install(plant.laws, plant.contacts)  # noqa: E731
+    def with_callbacks() -> None:
+        install(plant.laws, plant.contacts)
+
     stepped(with_callbacks)
     measured = statistics.median(stepped(with_callbacks) / stepped(uninstall) for _ in range(repeats))
     with_callbacks()

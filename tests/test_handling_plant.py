@@ -26,11 +26,11 @@ CORNERS = ("fl", "fr", "rl", "rr")
 class Drive(Driven):
     """Inputs as given, on a road, with a driver."""
 
-    surface: object = None
+    ground: object = None
     steerer: object = None
 
     def road(self):
-        return self.surface
+        return self.ground
 
     def driver(self):
         return self.steerer
@@ -195,7 +195,7 @@ def table_value(x, y, at):
 def test_cross_slope_is_held_straight_by_a_trimmed_angle(saloon):
     """The car runs straight across the fall line: side forces carry ``m g s``, nothing yaws."""
     slope = 0.03
-    run = simulate(saloon, Drive(duration=2.0, speed=20.0, surface=Road(cross_slope=slope)))
+    run = simulate(saloon, Drive(duration=2.0, speed=20.0, ground=Road(cross_slope=slope)))
     assert np.ptp(run["yaw_angle"]) < 1e-7
     assert np.abs(run["position_y"]).max() < 1e-7
     assert np.abs(run["lateral_acceleration"]).max() < 1e-6
@@ -256,7 +256,7 @@ def test_locked_wheels_stand_still_and_the_car_stops_and_stays(saloon):
 def test_split_friction_turns_the_car_towards_the_grip(saloon):
     road = Road(patches=(Patch(15.0, 1e3, -10.0, 0.0, 0.3),))
     inputs = {"brake_pedal": [(1.0, 0.0), (1.1, 0.4)], "speed_control": [(0.0, 1.0), (1.0, 1.0), (1.001, 0.0)]}
-    run = simulate(saloon, Drive(duration=1.8, speed=22.0, surface=road, inputs=inputs))
+    run = simulate(saloon, Drive(duration=1.8, speed=22.0, ground=road, inputs=inputs))
     assert run["fr_longitudinal_force"][-1] > run["fl_longitudinal_force"][-1] + 500  # braking forces are negative
     assert run["yaw_angle"][-1] > 0.01
 
@@ -266,7 +266,7 @@ def test_friction_patch_scales_what_a_locked_wheel_transmits(saloon):
     means = []
     for friction in (1.0, 0.5):
         road = Road(patches=(Patch(-10.0, 1e3, -10.0, 10.0, friction),))
-        run = simulate(saloon, Drive(duration=1.8, speed=25.0, surface=road, inputs=inputs))
+        run = simulate(saloon, Drive(duration=1.8, speed=25.0, ground=road, inputs=inputs))
         means.append(run["fl_longitudinal_force"][-300:].mean() / run["fl_wheel_load"][-300:].mean())
     tyre = load_vehicle("s_class").front.handling_tyre
     law = [tyre.evaluate(kappa=-1.0, load=6000.0, friction=friction).longitudinal_force for friction in (1.0, 0.5)]
@@ -292,7 +292,7 @@ def test_side_wind_pushes_and_turns_the_car_as_its_coefficients_say(tmp_path):
 def test_a_bump_on_the_road_reaches_front_and_rear_where_it_lies(saloon):
     x = np.arange(0.0, 40.0, 0.02)
     height, _ = cosine_bump(x - 10.0, 0.03, 1.0)
-    run = simulate(saloon, Drive(duration=1.5, speed=20.0, surface=Road(x=x, height=height[:, None])))
+    run = simulate(saloon, Drive(duration=1.5, speed=20.0, ground=Road(x=x, height=height[:, None])))
     front = run.time[np.argmax(run["fl_road_height"])]
     rear = run.time[np.argmax(run["rl_road_height"])]
     assert run["fl_road_height"].max() == pytest.approx(0.03, rel=1e-3)
@@ -324,7 +324,7 @@ def test_the_driver_follows_a_circle_and_a_lane_change(saloon):
 def test_a_car_that_falls_over_says_so(saloon):
     road = Road(patches=(Patch(-1e3, 1e3, -1e3, 1e3, 3.0),))
     with pytest.raises(SimulationError, match="the car fell over at t = "):
-        simulate(saloon, Drive(duration=12.0, speed=25.0, surface=road, inputs={"steering_wheel_angle": [(0.5, 0.0), (2.0, 4.0)]}))
+        simulate(saloon, Drive(duration=12.0, speed=25.0, ground=road, inputs={"steering_wheel_angle": [(0.5, 0.0), (2.0, 4.0)]}))
 
 
 # ---- rig
@@ -416,9 +416,7 @@ def test_drive_pushes_along_the_wheel_centres_path_and_brakes_along_the_patchs(s
     """
     kinematics = load_vehicle("s_class").rear.kinematics
     origin = list(kinematics.travel).index(0.0)
-    slopes = {
-        name: np.gradient(kinematics.path(name), kinematics.travel)[origin] for name in ("longitudinal", "longitudinal_centre")
-    }
+    slopes = {name: np.gradient(kinematics.path(name), kinematics.travel)[origin] for name in ("longitudinal", "longitudinal_centre")}
     assert abs(slopes["longitudinal"]) > 2 * abs(slopes["longitudinal_centre"]) > 0.05
     turn = (slopes["longitudinal_centre"] - slopes["longitudinal"]) / 0.316
     off = {"speed_control": [(0.0, 1.0), (0.5, 1.0), (0.501, 0.0)]}

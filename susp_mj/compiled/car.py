@@ -230,7 +230,7 @@ def steering(head, model, data, signals, path, position, heading, speed):
 def shifted_gear(head, signals, time, shaft_speed, cruising):
     """Gear at a speed of the propeller shaft; remembers gear and the beginning of a shift. The first call chooses a gear to cruise in.
 
-    With the speed controller in charge it is held as long as the engine can turn in it, so that no shift disturbs a manoeuvre.
+    The speed is that of wheels which roll: neither a locked wheel nor a spinning one shifts the box. With the speed controller in charge it is held as long as the engine can turn in it, so that no shift disturbs a manoeuvre.
     """
     count = int(head[GEARS])
     gear = int(signals[GEAR])
@@ -266,7 +266,7 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
     engine_speed = act[ints(model.actuator_actadr)[engine]]
     time = data.time
     trimming = signals[TRIMMING] != 0.0
-    gear = shifted_gear(head, signals, time, shaft_speed, weight > 0.0)
+    gear = shifted_gear(head, signals, time, abs(speed) / rolling_radius * head[FINAL_DRIVE], weight > 0.0)
     ratio = head[GEAR_1 + gear - 1] * head[FINAL_DRIVE]
     input_speed = shaft_speed * head[GEAR_1 + gear - 1]
     full, _ = looked_up(doubles(place_of(base, head[FULL_TORQUE])), engine_speed)

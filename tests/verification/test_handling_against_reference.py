@@ -21,6 +21,9 @@ WHEEL = ("wheel_load", "suspension_deflection", "slip_angle", "slip_ratio", "lon
          "wheel_speed")  # fmt: skip
 CARS = {"s_class": ("configuration_4", 1.10), "bmw_320i": (None, 1.10)}
 """Characteristics, and the angle of the steering wheel [rad] that gives about 5 m/s² at 20 m/s."""
+WITHIN = 2.5e-3
+"""Largest difference of a channel over its range. The car looks its toe and camber up in rows of 5° of steering, with straight lines
+between them, and leaves out what little work the tyre's moments do on their change with steering: both tell where the tables are bent."""
 
 
 @dataclass(frozen=True)
@@ -69,18 +72,18 @@ def _every_wheels(quantities: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def test_step_steer(step_steer):
-    """To 0.5 % of the range of every channel over two seconds."""
+    """Every channel over two seconds, as a share of its range."""
     assert 4.5 < step_steer.run["lateral_acceleration"].max() < 7.0
-    off = {name: share for name, share in step_steer.worst((*BODY, *_every_wheels(WHEEL))).items() if share > 5e-3}
+    off = {name: share for name, share in step_steer.worst((*BODY, *_every_wheels(WHEEL))).items() if share > WITHIN}
     assert not off
 
 
 def test_braking_in_a_turn(braking_in_turn):
-    """To 0.5 % of the range of every channel over two seconds; the tyres slip both ways at once."""
+    """Every channel over two seconds, as a share of its range; the tyres slip both ways at once, and the gearbox shifts down."""
     run = braking_in_turn.run
     assert run["lateral_acceleration"].max() > 4.0
     assert run["longitudinal_acceleration"].min() < -3.0
-    off = {name: share for name, share in braking_in_turn.worst((*BODY, *_every_wheels(WHEEL))).items() if share > 5e-3}
+    off = {name: share for name, share in braking_in_turn.worst((*BODY, *_every_wheels(WHEEL))).items() if share > WITHIN}
     assert not off
 
 

@@ -6,6 +6,7 @@ import json
 import math
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -85,9 +86,11 @@ def test_step_response_follows_the_single_track_model_in_time(tmp_path):
     )  # fmt: skip
     run = simulate(build(stiff.vehicle(tmp_path), HANDLING), Driven(duration=3.0, speed=v, inputs=inputs))
 
+    moments, angles = np.array(inputs["steering_wheel_angle"]).T
+
     def rates(t, state):
         beta, r, front, rear = state
-        steer = np.interp(t, *zip(*inputs["steering_wheel_angle"], strict=True)) / RATIO
+        steer = float(np.interp(t, moments, angles)) / RATIO
         fy, ry = -g["Cf"] * front, -g["Cr"] * rear
         return [
             (fy + ry) / (g["m"] * v) - r,
@@ -199,6 +202,46 @@ def test_coast_down_of_the_cars_balances(name, characteristics):
     lost = kinetic[-1] - kinetic[0]
     assert lost < -5e4
     assert work == pytest.approx(lost, rel=0.005)
+
+
+# ---- drive shafts and brakes
+
+
+def test_a_drive_shaft_turns_the_wheel_and_a_brake_the_carrier_too():
+    """At given slips, thus at given forces of the road, all that a drive shaft does is turn its wheel: a wheel that spins up on ice lifts
+    nothing. A brake holds the carrier by its torque T, which adds ``T theta'`` to the travel, theta the carrier's turn over the travel.
+    """
+    from susp_mj.compiled import install
+
+    vehicle = load_vehicle("s_class", "configuration_4")
+    plant = build(vehicle, HANDLING)
+    model = plant.model
+    install(plant.laws, plant.contacts)
+
+    def applied(engine: float, brake: float) -> np.ndarray:
+        data = mujoco.MjData(model)
+        data.qvel[0] = 15.0
+        for corner in ("fl", "fr", "rl", "rr"):
+            data.qvel[model.joint(f"{corner}_spin").dofadr[0]] = 15.0 / 0.33
+            data.act[model.actuator_actadr[model.actuator(f"{corner}_tyre").id] + 2] = 1.0
+        data.act[model.actuator_actadr[model.actuator("engine").id]] = engine
+        data.ctrl[model.actuator("brake").id] = brake
+        mujoco.mj_forward(model, data)
+        return np.array([data.qfrc_applied[model.joint(f"rl_{part}").dofadr[0]] for part in ("travel", "spin")])
+
+    rest, driven, braked = applied(150.0, 0.0), applied(250.0, 0.0), applied(150.0, 0.5)
+    assert driven[1] - rest[1] > 1000.0
+    assert driven[0] == rest[0]
+    torque = rest[1] - braked[1]
+    assert vehicle.brakes is not None
+    assert vehicle.rear is not None
+    assert torque == pytest.approx(0.5 * vehicle.brakes.torque * (1 - vehicle.brakes.front_share) / 2, rel=1e-9)
+    kinematics = vehicle.rear.kinematics
+    assert kinematics is not None
+    origin = kinematics.travel.index(0.0)
+    turn = np.gradient(kinematics.path("longitudinal_centre") - kinematics.path("longitudinal"), kinematics.travel)[origin] / 0.316
+    assert abs(turn) > 0.1
+    assert braked[0] - rest[0] == pytest.approx(torque * turn, rel=2e-3)
 
 
 # ---- straight and mirrored

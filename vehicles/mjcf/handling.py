@@ -35,7 +35,7 @@ _RIG_FREQUENCY = 300.0  # rad/s of the body on its servo: far above every suspen
 _CONTROL_GAIN, _CONTROL_INTEGRAL = 1.5, 0.5  # 1/s, 1/s²: force of the speed controller per car mass and speed error
 _STALL_SPEED = 220.0  # rad/s at which the converter holds the engine's largest torque with the car at rest
 _IDLE_GAIN = 10.0  # N m s/rad of the idle governor
-_STEER_ROWS = 17
+_STEER_ROWS = 33
 _WHEEL_MASS_SHARE, _KNUCKLE_MASS = 0.5, 1e-3
 
 
