@@ -113,11 +113,12 @@ class Plant:
         series = {source: np.ascontiguousarray(values.T) for source, values in columns.items()}
         results = []
         for output in self.meaning.outputs:
-            values = np.zeros(series["qpos"].shape[1])
+            values: np.ndarray | None = None
             for source, name, factor in output.terms:
                 column = inputs[name] if source.startswith("input") else self.index(source, name)
-                values += factor * series[source][column]
-            results.append((output, values))
+                share = series[source][column] if factor == 1.0 else factor * series[source][column]
+                values = share if values is None else values + share
+            results.append((output, np.zeros(series["qpos"].shape[1]) if values is None else values))
         return results
 
 

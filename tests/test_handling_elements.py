@@ -73,7 +73,8 @@ LINES = [
     ),
     (
         {"front.kinematics.tow": [0, 0, 0]},
-        "front.kinematics.tow: unknown key; did you mean 'toe'? choose travel, steer, lateral, longitudinal, longitudinal_centre, toe, camber",
+        "front.kinematics.tow: unknown key; did you mean 'toe'? "
+        "choose travel, steer, lateral, longitudinal, longitudinal_centre, toe, camber",
     ),
     ({"front.compliance.toe": [0, 0, 0]}, "front.compliance.lateral_force: is required by toe"),
     ({"front.compliance.lateral_force": [-1, 0, 1]}, "front.compliance.lateral_force: stands alone; give toe or camber with it"),

@@ -17,6 +17,7 @@ from ..elements import LAWS
 from ..elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, LAW_TABLE_SIZE, USERDATA_HEADER
 from ..errors import CallbackError
 from .car import car_forces, car_state_rates, is_car
+from .clock import start_clock, stop_clock
 from .laws import compile_contacts, compile_laws, law_call
 from .layout import LAYOUT
 from .memory import OPTIONS, bits, doubles, ints, plain
@@ -151,7 +152,8 @@ _SLOTS = {
 def install(laws: Any = None, contacts: Any = ()) -> None:
     """Put the compiled callbacks into MuJoCo; calling it again changes nothing.
 
-    MuJoCo has one set of callbacks per process. Models that are not ours pass through them unchanged.
+    MuJoCo has one set of callbacks per process. Models that are not ours pass through them unchanged. MuJoCo's own timing stops,
+    see `clock`.
 
     Args:
         laws: numbers of the laws that will be used; None compiles every registered one.
@@ -168,13 +170,15 @@ def install(laws: Any = None, contacts: Any = ()) -> None:
             raise CallbackError(f"mjcb_{name} is taken by another program; call mujoco.set_mjcb_{name}(None) first")
         if present is None:
             put(compiled.ctypes)
+    stop_clock()
 
 
 def uninstall() -> None:
-    """Take our callbacks out of MuJoCo; foreign ones stay."""
+    """Take our callbacks out of MuJoCo and start its clock again; foreign callbacks stay."""
     for get, put, compiled in _SLOTS.values():
         if _is_ours(get(), compiled):
             put(None)
+    start_clock()
 
 
 def installed() -> bool:

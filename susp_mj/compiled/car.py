@@ -230,7 +230,8 @@ def steering(head, model, data, signals, path, position, heading, speed):
 def shifted_gear(head, signals, time, shaft_speed, cruising):
     """Gear at a speed of the propeller shaft; remembers gear and the beginning of a shift. The first call chooses a gear to cruise in.
 
-    The speed is that of wheels which roll: neither a locked wheel nor a spinning one shifts the box. With the speed controller in charge it is held as long as the engine can turn in it, so that no shift disturbs a manoeuvre.
+    The speed is that of wheels which roll: neither a locked wheel nor a spinning one shifts the box. With the speed controller
+    in charge the gear is held as long as the engine can turn in it, so that no shift disturbs a manoeuvre.
     """
     count = int(head[GEARS])
     gear = int(signals[GEAR])

@@ -66,6 +66,7 @@ def handling_specification(vehicle: Vehicle, load: str, rig: str | None) -> tupl
         raise InputError(f"no rig '{rig}' for model {HANDLING}; allowed is {K_AND_C}", key="rig")
     vehicle.check_handling()
     builder = ModelBuilder(f"{vehicle.name}_{HANDLING}", vehicle.source)
+    builder.spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER  # no joint has any
     case = vehicle.load(load)
     assert case.cg is not None and case.sprung_mass is not None and case.inertia is not None and vehicle.wheelbase is not None
     wheels = [_wheel(builder, vehicle, station, case.cg) for station in CORNERS]
