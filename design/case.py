@@ -209,12 +209,19 @@ def run_case(case: Case, path: Path, progress: Report = lambda task, done: None)
         try:
             run = simulate(plant, manoeuvre, step=case.step, record_every=case.record_every, progress=report)
         except InputError as error:
-            raise error.within(source=path.name) from None
+            raise _of_manoeuvre(error, manoeuvre).within(source=path.name) from None
         configurations.append(_outcome(case, setting, vehicle, manoeuvre, run, evaluate(run, names)))
     wanted = {*case.numbers, *case.criteria}
     shown = [name for name in names if name in wanted or any(each.numbers[name].applies for each in configurations)]
     configurations = [replace(each, numbers={name: each.numbers[name] for name in shown}) for each in configurations]
     return Comparison(case.title, case.description, configurations, _criteria(case, configurations, path.name))
+
+
+def _of_manoeuvre(error: InputError, manoeuvre: Manoeuvre) -> InputError:
+    """An error of a run, its key the one in the case file where a parameter of the manoeuvre is to blame."""
+    if error.source in ("", "manoeuvre") and error.key in type(manoeuvre).model_fields:
+        return InputError(error.message, key=f"manoeuvre.{error.key}")
+    return error
 
 
 def _outcome(case: Case, setting: Setting, vehicle: Vehicle, manoeuvre: Manoeuvre, run: Run, numbers: dict[str, Number]) -> Configuration:

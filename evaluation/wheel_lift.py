@@ -91,6 +91,8 @@ def _inner_load(run: Run, order: int) -> Number:
     acceleration = np.abs(run["lateral_acceleration"][:last])
     loads = np.where(acceleration >= TURNING, run[f"{station}_wheel_load"][:last], np.inf)
     at = int(np.argmin(loads))
+    if acceleration[at] < TURNING:
+        return missing("N", "does not follow its circle until it turns")
     return Number(float(loads[at]), "N", f"{station} at {acceleration[at]:.1f} m/s²")
 
 

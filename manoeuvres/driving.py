@@ -13,6 +13,8 @@ from susp_mj.units import PositiveSpeed, Quantity, Time
 
 Angle = Annotated[float, Quantity("rad")]
 PositiveAngle = Annotated[float, Quantity("rad", gt=0)]
+SteeringFrequency = Annotated[float, Quantity("Hz", gt=0, le=50)]
+"""Up to what steps of 1 ms follow, twenty a period; nobody steers as fast."""
 Pedal = Annotated[float, Quantity("", ge=0, le=1)]
 
 

@@ -7,10 +7,10 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from manoeuvres.driving import Angle, Driving
+from manoeuvres.driving import Angle, Driving, SteeringFrequency
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
-from susp_mj.units import Frequency, PositiveTime
+from susp_mj.units import PositiveTime
 
 
 class SineSteer(Driving):
@@ -31,7 +31,7 @@ class SineSteer(Driving):
     kind: Literal["sine_steer"] = "sine_steer"
     duration: PositiveTime = 6.0
     amplitude: Angle = np.radians(60.0)
-    frequency: Frequency = 0.5
+    frequency: SteeringFrequency = 0.5
     periods: Annotated[int, Field(ge=1)] = 1
 
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:

@@ -7,12 +7,12 @@ from typing import Literal
 import numpy as np
 from pydantic import model_validator
 
-from manoeuvres.driving import Driving, PositiveAngle, fallen
+from manoeuvres.driving import Driving, PositiveAngle, SteeringFrequency, fallen
 from manoeuvres.sweeping import Sweep
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
-from susp_mj.units import Frequency, PositiveTime, Time
+from susp_mj.units import PositiveTime, Time
 
 
 class SweptSteer(Driving):
@@ -36,8 +36,8 @@ class SweptSteer(Driving):
     kind: Literal["swept_steer"] = "swept_steer"
     duration: PositiveTime = 60.0
     amplitude: PositiveAngle = np.radians(30.0)
-    start_frequency: Frequency = 0.2
-    end_frequency: Frequency = 2.8
+    start_frequency: SteeringFrequency = 0.2
+    end_frequency: SteeringFrequency = 2.8
     scale: Literal["exponential", "linear"] = "exponential"
     start: Time = 0.0
     settle: Time = 2.0

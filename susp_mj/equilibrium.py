@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import mujoco
 import numpy as np
@@ -103,7 +103,15 @@ def _check_travel(plant: Plant, data: mujoco.MjData) -> None:
                 key=f"loads.{plant.meaning.load}",
                 source=plant.meaning.source,
             )
-    deflections = {o.station: float(v[0]) for o, v in plant.outputs(columns) if o.quantity == "suspension_deflection"}
+    check_deflections(plant, {o.station: float(v[0]) for o, v in plant.outputs(columns) if o.quantity == "suspension_deflection"})
+
+
+def check_deflections(plant: Plant, deflections: Mapping[str, float]) -> None:
+    """Refuse deflections [m] at rest, by station, that lie on a stop.
+
+    Raises:
+        InputError: naming the spring and the travel.
+    """
     for travel in plant.meaning.travels:
         deflection = deflections[travel.station]
         if not travel.rebound < deflection < travel.compression:

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from .chassis import free_motion
-from .elements.car import SIGNALS
+from .elements.car import HEAD, SIGNALS
 from .equilibrium import static_equilibrium
 from .errors import InputError, SimulationError
 from .manoeuvre import Manoeuvre
@@ -186,7 +186,22 @@ def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray) -> np.nd
             samples[:, i, 0], samples[:, i, 1] = driven
     if not np.isfinite(samples).all():
         raise InputError(f"manoeuvre {manoeuvre.kind} gives an input that is not finite", source="manoeuvre")
+    if plant.contacts:
+        _check_steering(plant, manoeuvre, samples)
     return samples
+
+
+def _check_steering(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray) -> None:
+    """Refuse a steering wheel that is turned further than it goes: the car would hold it at its limit and the run be another one."""
+    limit = float(plant.model.numeric_data[HEAD.index("steering_limit")])
+    for i, place in enumerate(plant.meaning.inputs):
+        largest = float(np.abs(samples[:, i, 0]).max())
+        if place.quantity == "steering_wheel_angle" and largest > limit * (1 + 1e-9):
+            raise InputError(
+                f"{manoeuvre.kind} turns the steering wheel by {largest:.4g} rad ({np.degrees(largest):.4g} deg); it goes "
+                f"{limit:.4g} rad ({np.degrees(limit):.4g} deg) to either side (steering.limit of {plant.meaning.source})",
+                source="manoeuvre",
+            )
 
 
 def _holding(quantity: str, manoeuvre: Manoeuvre, time: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from .elements.car import CRUISE_ABOVE, HEAD, SIGNALS, WHEEL
 from .elements.law import ACTUATOR_MARK
-from .equilibrium import rest_states, solve
+from .equilibrium import check_deflections, rest_states, solve
 from .errors import InputError, SimulationError
 from .names import CORNERS
 from .plant import Plant
@@ -61,7 +61,8 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
             f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s in model "
             f"{plant.meaning.model}; check preloads, sprung mass and tyres"
         )
-    _check_travel(plant, data)
+    joints = {travel.station: plant.model.joint(f"{travel.station}_travel") for travel in plant.meaning.travels}
+    check_deflections(plant, {station: float(data.qpos[int(joint.qposadr[0])]) for station, joint in joints.items()})
     return data
 
 
@@ -212,16 +213,3 @@ def _top_speed(plant: Plant, blocks: Blocks, too_fast: float) -> float:
         else:
             high = middle
     return low
-
-
-def _check_travel(plant: Plant, data: mujoco.MjData) -> None:
-    """Refuse a start on a stop: there the springs do not carry the car."""
-    for travel in plant.meaning.travels:
-        deflection = float(data.qpos[int(plant.model.joint(f"{travel.station}_travel").qposadr[0])])
-        if not travel.rebound < deflection < travel.compression:
-            raise InputError(
-                f"cannot carry load '{plant.meaning.load}': its equilibrium lies at {1000 * deflection:.1f} mm, outside the travel "
-                f"from {1000 * travel.rebound:.0f} to {1000 * travel.compression:.0f} mm; change preload, rate or load",
-                key=f"{travel.key}.spring",
-                source=plant.meaning.source,
-            )

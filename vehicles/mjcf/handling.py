@@ -37,6 +37,7 @@ _STALL_SPEED = 220.0  # rad/s at which the converter holds the engine's largest 
 _IDLE_GAIN = 10.0  # N m s/rad of the idle governor
 _STEER_ROWS = 33
 _WHEEL_MASS_SHARE, _KNUCKLE_MASS = 0.5, 1e-3
+_SOFTEST = 0.5  # largest static deflection of a tyre, as a share of its radius
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,9 @@ def handling_specification(vehicle: Vehicle, load: str, rig: str | None) -> tupl
     share = -case.cg[0] / vehicle.wheelbase
     hubs = [(wheels[i].design_height + wheels[i + 1].design_height) / 2 for i in (0, 2)]
     height = hubs[0] + share * (hubs[1] - hubs[0]) + case.cg[2]
+    if height <= 0:
+        text = f"{case.cg[2]:g} m is not allowed; the centre of gravity would lie {-height:.2f} m below the ground"
+        raise InputError(text, key=f"loads.{load}.cg.2", source=vehicle.source)
     chassis = builder.spec.worldbody.add_body(
         name="chassis",
         pos=[case.cg[0], case.cg[1], height],
@@ -135,6 +139,13 @@ def _wheel(builder: ModelBuilder, vehicle: Vehicle, station: str, cg: tuple[floa
     corner = Corner(station, axle_name, x - cg[0], y - cg[1], side, axle, road, partner)
     tyre = axle.handling_tyre.mounted("LEFT" if side > 0 else "RIGHT")
     carried = (vehicle.corner_mass(axle_name, DESIGN_LOAD) + (axle.unsprung_mass or 0.0)) * GRAVITY
+    if carried / tyre.vertical_stiffness > _SOFTEST * tyre.radius:
+        raise InputError(
+            f"{tyre.vertical_stiffness:g} N/m is not allowed; {carried:.0f} N would press the tyre in by "
+            f"{1000 * carried / tyre.vertical_stiffness:.0f} mm, more than half its radius of {1000 * tyre.radius:.0f} mm",
+            key=f"{axle_name}.handling_tyre.vertical_stiffness",
+            source=vehicle.source,
+        )
     return _Wheel(corner, tyre, tyre.radius - carried / tyre.vertical_stiffness)
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 
 from ...description import Description, wrong
-from ...errors import CallbackError
+from ...errors import CallbackError, InputError
 from ...units import Dimensionless, Stiffness
 from ..element import chosen_kind
 from ..law import helpers
@@ -52,7 +52,12 @@ class TyreFile(Description):
         Raises:
             InputError: in the tyre property file.
         """
-        tyre = load_tyre(self.file, inflation_pressure=self.inflation_pressure)
+        try:
+            tyre = load_tyre(self.file, inflation_pressure=self.inflation_pressure)
+        except InputError as error:
+            if error.key == "inflation_pressure":  # stands here, not in the tyre property file
+                raise wrong(error.message, "inflation_pressure") from None
+            raise
         if self.kind not in ("magic_formula", tyre.kind):
             raise wrong(f"{self.file.name} is of another version; write kind = 'magic_formula'", "kind")
         own = self.model_dump(include={"vertical_stiffness", "vertical_damping"}, exclude_none=True)

@@ -102,6 +102,17 @@ class MagicFormula(ContactTyre):
                         raise wrong("is required for combined slip (USE_MODE 4); USE_MODE 3 does without", f"{section}.{name}")
         return self
 
+    @model_validator(mode="after")
+    def _forces_finite(self) -> Self:
+        for slip in (0.0, 0.1, -0.1):
+            try:
+                finite = all(map(math.isfinite, self.evaluate(slip, slip, 0.02, 4000.0)))
+            except (ArithmeticError, ValueError):
+                finite = False
+            if not finite:
+                raise wrong(f"a coefficient is out of all bounds: at slip {slip:g} and a load of 4000 N the forces are not finite")
+        return self
+
     def mounted(self, side: Side) -> Self:
         """The same tyre on a side of the car: ``F_y, M_x, M_z`` of (-alpha, -camber) change sign between the sides."""
         return self.model_copy(update={"side": side})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -198,7 +199,11 @@ def _value(key: str, text: str, factors: dict[str, float], section: str, source:
     if not _NUMBER.match(text):
         raise InputError(f"'{text}' is not a number", key=f"{section}.{key}", source=source)
     number = float(text.upper().replace("D", "E"))
+    if not math.isfinite(number):
+        raise InputError(f"'{text}' is not a finite number", key=f"{section}.{key}", source=source)
     if key == "USE_MODE":
+        if number < 0 or number != int(number):
+            raise InputError(f"'{text}' is not a mode; write a whole number, 0 at least", key=f"{section}.{key}", source=source)
         return int(number) % 10
     for unit, power in _DIMENSIONS.get(key, {}).items():
         number *= factors[unit] ** power
@@ -209,7 +214,10 @@ def _refuse_effect(key: str, text: str, known: Any, section: str, version: _Vers
     """A coefficient that the formula does not have may stand there only if it changes nothing (0; a scale factor 1)."""
     neutral = 1.0 if section == "SCALING_COEFFICIENTS" else 0.0
     neutral = 0.0 if key == "LMUV" else neutral
-    if key in version.without_effect or (_NUMBER.match(text) and float(text.upper().replace("D", "E")) == neutral):
+    if key in version.without_effect:
+        _value(key, text, {}, section, source)  # a number all the same
+        return
+    if _NUMBER.match(text) and float(text.upper().replace("D", "E")) == neutral:
         return
     raise InputError(f"unknown coefficient of {version.name}; {choices(known, key)}", key=f"{section}.{key}", source=source)
 
