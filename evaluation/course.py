@@ -66,7 +66,7 @@ def cones_hit(run: Run) -> Number:
     named = ", ".join(
         f"x = {point[0]:.0f} m {'left' if point[1] > 0 else 'right'}" for point, touched in zip(points, hit, strict=True) if touched
     )
-    return Number(float(sum(hit)), "1", named or "none")
+    return Number(float(sum(hit)), "1", named) if named else _all_lanes(run, Number(0.0, "1", "none"))
 
 
 def lane_departure(run: Run) -> Number:
@@ -81,7 +81,8 @@ def lane_departure(run: Run) -> Number:
             beyond = np.where(inside, np.maximum(lane["y"][0] - y, y - lane["y"][1]), -np.inf)
             if beyond.max() > worst:
                 worst, where = float(beyond.max()), f"in lane {number}"
-    return Number(worst, "m", where)
+    number = Number(worst, "m", where)
+    return number if worst > 0.0 else _all_lanes(run, number)
 
 
 def lane_entry_speed(run: Run) -> Number:
@@ -128,6 +129,12 @@ def _touches(run: Run, point: np.ndarray, outline: tuple[tuple[float, float], tu
     (rear, front), (right, left) = outline
     outside = np.hypot(np.maximum(np.maximum(rear - along, along - front), 0.0), np.maximum(np.maximum(right - across, across - left), 0.0))
     return bool((outside < radius - 1e-9).any())
+
+
+def _all_lanes(run: Run, number: Number) -> Number:
+    """The number if the car gets through all lanes; no value if the run ends before."""
+    end = lane_exit_speed(run)
+    return number if end.value is not None else Number(None, number.unit, end.note)
 
 
 def _lane_speed(run: Run, lane: int, end: int) -> Number:

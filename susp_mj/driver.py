@@ -45,7 +45,7 @@ class Driver:
     understeer: float = 0.0
 
     def block(self) -> np.ndarray:
-        """The driver as the compiled car reads him; see `compiled.driving`."""
+        """The driver as the compiled car reads him; see `compiled.surroundings`."""
         path = self.path
         radius = 0.0 if path.radius is None else path.radius
         head = [self.preview_time, self.lag, self.understeer, radius, path.x[0], path.x[1] - path.x[0], len(path.x)]

@@ -144,7 +144,7 @@ class Road:
     features: tuple[Mapping[str, Any], ...] = ()
 
     def block(self) -> np.ndarray:
-        """The road as the compiled car reads it; see `compiled.road`."""
+        """The road as the compiled car reads it; see `compiled.surroundings`."""
         spacing_y = self.y[1] - self.y[0] if len(self.y) > 1 else 1.0
         head = [self.x[0], self.x[1] - self.x[0], len(self.x), self.y[0], spacing_y, len(self.y), self.cross_slope, self.friction]
         head.append(len(self.patches))

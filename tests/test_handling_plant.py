@@ -53,12 +53,12 @@ def rig():
 
 
 def test_the_compiled_car_reads_every_number_where_it_is_written():
-    from susp_mj.compiled import car
+    from susp_mj.compiled import places
 
     for names in (HEAD, WHEEL):
         for place, name in enumerate(names):
             if not name.startswith("gear_") or name == "gear_1":
-                assert getattr(car, name.upper()) == place, name
+                assert getattr(places, name.upper()) == place, name
 
 
 def test_the_block_refuses_a_name_that_it_does_not_have():
@@ -78,11 +78,11 @@ def test_equal_tables_share_their_place_in_the_block():
 @pytest.mark.parametrize("x", [-0.13, -0.12, -0.031, 0.0, 0.0499, 0.12, 0.2])
 def test_tables_give_values_and_slopes_of_the_curves(x):
     """A parabola and a cubic are met exactly inside; outside both go straight on."""
-    from susp_mj.compiled import car
+    from susp_mj.compiled import lookup
 
     z = np.linspace(-0.12, 0.12, 9)
     numbers = table(z, 0.2 * z - 1.5 * z**2, z**3, smooth=True)
-    first, first_slope, second, second_slope = car.both_looked_up.py_func(numbers, x)
+    first, first_slope, second, second_slope = lookup.both_looked_up.py_func(numbers, x)
     inside = min(max(x, -0.12), 0.12)
     assert first == pytest.approx(0.2 * inside - 1.5 * inside**2 + (0.2 - 3 * inside) * (x - inside), abs=1e-12)
     assert first_slope == pytest.approx(0.2 - 3 * inside, abs=1e-10)

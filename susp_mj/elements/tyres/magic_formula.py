@@ -104,13 +104,13 @@ class MagicFormula(ContactTyre):
 
     @model_validator(mode="after")
     def _forces_finite(self) -> Self:
-        for slip in (0.0, 0.1, -0.1):
+        for slip, load in ((slip, load) for load in (4000.0, 1000.0, 8000.0) for slip in (0.0, 0.1, -0.1)):
             try:
-                finite = all(map(math.isfinite, self.evaluate(slip, slip, 0.02, 4000.0)))
+                finite = all(map(math.isfinite, self.evaluate(slip, slip, 0.02, load)))
             except (ArithmeticError, ValueError):
                 finite = False
             if not finite:
-                raise wrong(f"a coefficient is out of all bounds: at slip {slip:g} and a load of 4000 N the forces are not finite")
+                raise wrong(f"a coefficient is out of all bounds: at slip {slip:g} and a load of {load:g} N the forces are not finite")
         return self
 
     def mounted(self, side: Side) -> Self:
