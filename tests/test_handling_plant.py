@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+from typing import ClassVar, Literal
 
 import mujoco
 import numpy as np
 import pytest
 
 from susp_mj.driver import Driver, Path
+from susp_mj.elements import ContactLaw, ContactTyre, register_contact_tyre
 from susp_mj.elements.car import CAR_NUMERIC, HEAD, SIGNALS, WHEEL, car_block, table, table_of_tables
 from susp_mj.errors import InputError, SimulationError
 from susp_mj.plant import Plant
@@ -429,3 +431,47 @@ def test_drive_pushes_along_the_wheel_centres_path_and_brakes_along_the_patchs(s
         expected = -slopes["longitudinal"] * force - turn * torque
         assert abs(force) > 500.0
         assert carried == pytest.approx(expected, abs=0.02 * abs(force)), pedal
+
+
+# ---- tyres of every kind
+
+
+def saturating_contact(kappa, tan_alpha, camber, load, rolling, lateral, friction, p, out):
+    """Side force ``mu F_z`` approached exponentially; rolls without loss."""
+    for i in range(5):
+        out[i] = 0.0
+    out[5], out[6], out[7] = 0.3, 0.3, p[0]
+    most = p[1] * friction * load
+    out[0] = most * math.tanh(20.0 * kappa)
+    out[1] = -most * math.tanh(15.0 * tan_alpha)
+
+
+class SaturatingTyre(ContactTyre):
+    """A tyre of the user's own."""
+
+    law: ClassVar[ContactLaw] = ContactLaw("saturating_contact_of_the_tests", saturating_contact)
+    kind: Literal["saturating_of_the_tests"] = "saturating_of_the_tests"
+    grip: float = 1.0
+
+    def parameters(self):
+        return (self.radius, self.grip)
+
+
+@pytest.mark.parametrize(
+    "tyre",
+    [
+        {"kind": "magic_formula", "file": "mf61_205_60R15.tir"},
+        {"kind": "magic_formula", "file": "pac2002_245_40R18.tir"},
+        {"kind": "saturating_of_the_tests", "radius": 0.33, "vertical_stiffness": 2e5, "grip": 0.8},
+    ],
+    ids=lambda tyre: str(tyre.get("file", tyre["kind"])),
+)
+def test_the_car_drives_on_every_kind_of_tyre(tyre):
+    register_contact_tyre(SaturatingTyre)
+    car = load_vehicle("bmw_320i", overrides={"front.handling_tyre": tyre, "rear.handling_tyre": tyre})
+    run = simulate(build(car, HANDLING), Drive(duration=4.0, speed=20.0, inputs={"steering_wheel_angle": [(0.5, 0.0), (0.8, 1.0)]}))
+    assert np.ptp(run["speed"][:400]) < 1e-7  # trimmed
+    assert 3.0 < run["lateral_acceleration"][-1] < 8.5
+    assert run["lateral_acceleration"][-1] == pytest.approx(run["speed"][-1] * run["yaw_rate"][-1], rel=0.05)
+    loads = sum(run[f"{c}_wheel_load"][-1] for c in CORNERS)
+    assert loads == pytest.approx((965.71 + 4 * 31.896) * 9.81, rel=0.02)
