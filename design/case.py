@@ -219,8 +219,8 @@ def run_case(case: Case, path: Path, progress: Report = lambda task, done: None)
 
 def _of_manoeuvre(error: InputError, manoeuvre: Manoeuvre) -> InputError:
     """An error of a run, its key the one in the case file where a parameter of the manoeuvre is to blame."""
-    if error.source in ("", "manoeuvre") and error.key in type(manoeuvre).model_fields:
-        return InputError(error.message, key=f"manoeuvre.{error.key}")
+    if error.source == "manoeuvre" or (not error.source and error.key in type(manoeuvre).model_fields):
+        return InputError(error.message, key=".".join(part for part in ("manoeuvre", error.key) if part))
     return error
 
 

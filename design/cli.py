@@ -181,9 +181,12 @@ def main() -> None:
 
 
 def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool) -> None:
+    import mujoco
+
     from .case import carry_out
     from .show import print_comparison
 
+    mujoco.set_mju_user_warning(lambda _: None)  # else a file MUJOCO_LOG.TXT in this folder; what it says ends a run in one line
     if video:
         _require_video()
     with _progress() as progress:

@@ -98,6 +98,7 @@ def make_panels(
     """
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
+    from matplotlib.ticker import MaxNLocator
 
     count = len(titles)
     columns = count if count <= 3 else 2
@@ -119,6 +120,8 @@ def make_panels(
         bottom = height - top - panel_height - (i // columns) * (panel_height + _ROW_GAP + title)
         box = (left / width, bottom / height, panel_width / width, panel_height / height)
         axes.append(figure.add_axes(box, sharey=axes[0] if share_y and axes else None))
+        if not share_y or i == 0:  # no steps of 2.5, whose numbers are so long that they push the axis' name out of the picture
+            axes[-1].yaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
         if count > 1:
             axes[-1].set_title(short_label(titles[i]) if titles[i] else "")
     handles = [Line2D([], [], color=colour(i), linestyle=line_style(i), linewidth=2.0) for i in range(len(names))]

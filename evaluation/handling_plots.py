@@ -127,20 +127,22 @@ def _lift_figure(configurations: Sequence[Configuration]) -> Figure:
 
 
 def _mark_lifts(configurations: Sequence[Configuration], panels: Sequence[Axes]) -> bool:
-    """A ring where an inner wheel leaves the road, with the lateral acceleration below it; whether any does."""
+    """A ring where an inner wheel leaves the road on its line, with the lateral acceleration below it; whether any does."""
     found = False
     for row, panel in enumerate(panels):
-        height = 0
+        height, right = 0, panel.dataLim.x1
         for order, each in enumerate(configurations):
-            station = inner(each.run)[row]
-            for lift in (lift for lift in lifts(each.run) if lift.station == station):
+            station, turning = inner(each.run)[row], tightening(each.run)
+            last = 0 if turning is None else len(turning.acceleration)
+            for lift in (lift for lift in lifts(each.run) if lift.station == station and lift.at < last):
+                outside = lift.acceleration > 0.8 * right
                 panel.plot([lift.acceleration], [0], "o", color=colour(order), markersize=7, markeredgecolor=LIFTED, markeredgewidth=1.6)
                 panel.annotate(
                     f"lifts at {lift.acceleration:.1f}",
                     (lift.acceleration, 0),
-                    xytext=(0, -8 - 9 * height),
+                    xytext=(6 if outside else 0, -8 - 9 * height),
                     textcoords="offset points",
-                    ha="center",
+                    ha="right" if outside else "center",
                     va="top",
                     fontsize=7.5,
                     color=colour(order),
@@ -154,11 +156,13 @@ def _self_steering_figure(configurations: Sequence[Configuration]) -> Figure:
     figure, (steering, slip) = make_panels(
         [each.name for each in configurations], ["steering wheel angle; dotted: without slip", "side slip at the rear axle"]
     )
+    highest = 0.0
     for order, each in enumerate(configurations):
         run, turning = each.run, tightening(each.run)
         if turning is None:
             continue
         angle = turning.side * np.degrees(run["steering_wheel_angle"] - run["steering_wheel_angle"][0])
+        highest = max(highest, float(turning.part(angle).max()))
         draw_line(steering, order, *_over(turning.acceleration, turning.part(angle)))
         if (wheelbase := fact(run, "wheelbase")) is not None and (ratio := fact(run, "steering_ratio")) is not None:
             speed = np.maximum(turning.part(run["speed"]), 0.1)
@@ -166,6 +170,8 @@ def _self_steering_figure(configurations: Sequence[Configuration]) -> Figure:
             steering.plot(*_over(turning.acceleration, geometry), color=colour(order), linestyle=":", linewidth=1.2)
         behind = turning.side * np.degrees(run["rear_side_slip_angle"])
         draw_line(slip, order, *_over(turning.acceleration, turning.part(behind)))
+    if highest > 0.0:  # a car that spins slows down so much that the angle without slip leaves the picture
+        steering.set_ylim(top=min(steering.get_ylim()[1], 1.5 * highest))
     label_axes(steering, _ACCELERATION, "steering wheel angle [°]")
     label_axes(slip, _ACCELERATION, "side slip angle [°]")
     _from_zero(steering, slip)
@@ -281,9 +287,9 @@ def _ground_figure(configurations: Sequence[Configuration]) -> Figure:
     _draw_features(panel, configurations[0].run)
     for order, each in enumerate(configurations):
         run = each.run
-        if cones(run) is not None:
-            for x, y in corners(run).values():
-                panel.plot(*_way(x, y), color=colour(order), linewidth=0.6, alpha=0.55)
+        beside = corners(run).values() if cones(run) is not None else _front_wheels(run) if kind(run) == "split_mu" else ()
+        for x, y in beside:
+            panel.plot(*_way(x, y), color=colour(order), linewidth=0.6, alpha=0.55)
         draw_line(panel, order, *_way(run["position_x"], run["position_y"]))
     if turns:
         panel.set_aspect("equal", adjustable="datalim")
@@ -292,6 +298,15 @@ def _ground_figure(configurations: Sequence[Configuration]) -> Figure:
         panel.set_ylim(min(low, -1.0), max(high, 1.0))
     label_axes(panel, "x [m]", "y, to the left [m]")
     return figure
+
+
+def _front_wheels(run: Run) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Ways of both front wheels over the ground [m]."""
+    track, ahead, yaw = fact(run, "track_front"), fact(run, "cg_x"), run["yaw_angle"]
+    if track is None or ahead is None:
+        return []
+    x, y = run["position_x"] - ahead * np.cos(yaw), run["position_y"] - ahead * np.sin(yaw)
+    return [(x - across * np.sin(yaw), y + across * np.cos(yaw)) for across in (track / 2, -track / 2)]
 
 
 def _draw_features(panel: Axes, run: Run) -> None:

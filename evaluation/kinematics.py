@@ -64,12 +64,12 @@ def roll_centre_height_rear(run: Run) -> Number:
 
 
 def path_angle_front(run: Run) -> Number:
-    """Angle of a front wheel's path [rad]: ``atan(dx/dz)``, x the contact patch's movement forwards in bump; positive is anti-dive."""
+    """Angle of a front wheel's path, positive: anti-dive [rad]: ``atan(dx/dz)``, x the contact patch's movement forwards in bump."""
     return _path_angle(run, "front", 1.0)
 
 
 def path_angle_rear(run: Run) -> Number:
-    """Angle of a rear wheel's path [rad]: ``atan(-dx/dz)``, x the contact patch's movement forwards in bump; positive is anti-lift."""
+    """Angle of a rear wheel's path, positive: anti-lift [rad]: ``atan(-dx/dz)``, x the contact patch's movement forwards in bump."""
     return _path_angle(run, "rear", -1.0)
 
 

@@ -57,10 +57,10 @@ _PLOT_NOTES = {
     "seat_acceleration": "at the driver's seat, positive upwards",
     "body_acceleration": "positive upwards",
     "body_displacement": "positive upwards, from the design position",
-    "wheel_lift_handling": "a ring marks a wheel that leaves the road, with the lateral acceleration at which it does",
+    "wheel_lift_handling": "up to the largest lateral acceleration; a ring marks a wheel that leaves the road, with the acceleration there",
     "self_steering_handling": "positive into the turn; dotted: the angle of slip-free rolling on the same circle",
     "wheel_travel_handling": "up to the largest lateral acceleration; positive in compression, from the design position",
-    "course_handling": "way of the centre of gravity; thin: the corners of the car",
+    "course_handling": "way of the centre of gravity; thin: the corners of the car between cones, its front wheels on slippery ground",
     "kinematics_handling": "of the left wheel, or the mean of both",
     "over_time_handling": "positive to the left, roll left side up, pitch nose down",
     **dict.fromkeys(

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from manoeuvres.driving import held_speed
-from manoeuvres.surface import sampled
+from manoeuvres.surface import check_length, sampled
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import HeightAndSlope, Road, cosine_bump
@@ -48,6 +48,7 @@ class Bump(Manoeuvre):
         return cosine_bump(x - self.speed * self.start, self.height, self.length)
 
     def road(self) -> Road:
+        check_length(self.length, "length")
         begin = self.speed * self.start
         feature = {"kind": "bump", "x": [begin, begin + self.length], "height": self.height}
         return sampled(lambda x, y: self.profile(x)[0], begin, begin + self.length, features=(feature,))

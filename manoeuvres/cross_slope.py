@@ -7,9 +7,10 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from manoeuvres.driving import Driving
+from manoeuvres.surface import LONGEST
 from susp_mj.driver import Driver, Path
 from susp_mj.roads import Road, cosine_ramp
-from susp_mj.units import PositiveLength, PositiveSpeed, PositiveTime, Quantity
+from susp_mj.units import PositiveSpeed, PositiveTime, Quantity
 
 _SPACING = 0.5  # m
 _HALF_WIDTH = 50.0  # m
@@ -36,7 +37,7 @@ class CrossSlope(Driving):
     duration: PositiveTime = 6.0
     speed: PositiveSpeed = 100 / 3.6
     slope: Annotated[float, Quantity("", ge=-0.3, le=0.3)] = 0.025
-    transition: PositiveLength = 20.0
+    transition: Annotated[float, Quantity("m", gt=0, le=LONGEST)] = 20.0
     steered: bool = False
 
     def road(self) -> Road:

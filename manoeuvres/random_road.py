@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import model_validator
@@ -15,7 +15,7 @@ from susp_mj.errors import InputError
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import ROAD_CLASSES, RandomTracks, Road
-from susp_mj.units import NonNegativeLength, PositiveLength, PositiveSpeed, PositiveTime
+from susp_mj.units import NonNegativeLength, PositiveLength, PositiveSpeed, PositiveTime, Quantity
 
 _LONGEST_SURFACE = 20e3  # m
 
@@ -48,7 +48,7 @@ class RandomRoad(Manoeuvre):
     longest: PositiveLength = 100.0
     shortest: PositiveLength = 0.1
     lead_in: NonNegativeLength = 10.0
-    track: PositiveLength = 1.4
+    track: Annotated[float, Quantity("m", ge=0.1, le=10)] = 1.4
 
     @model_validator(mode="after")
     def _sensible(self) -> RandomRoad:

@@ -7,10 +7,26 @@ from typing import Any
 
 import numpy as np
 
+from susp_mj.errors import InputError
 from susp_mj.roads import Road
 
 SPACING = 0.02
 """Distance of samples along the road [m]; the cubic through them follows a wavelength of 0.2 m within 0.4 %."""
+
+
+SHORTEST, LONGEST = 0.2, 20e3
+"""Lengths [m] of what lies on a road that samples can describe."""
+
+
+def check_length(length: float, key: str) -> None:
+    """Refuse a length [m] between samples, or one that would take too many; `key` is its parameter.
+
+    Raises:
+        InputError: with the lengths that are allowed.
+    """
+    if not SHORTEST <= length <= LONGEST:
+        text = f"{length:g} m is not allowed for a car that drives freely; it must be from {SHORTEST:g} m to {LONGEST / 1e3:g} km"
+        raise InputError(text, key=key, source="manoeuvre")
 
 
 def sampled(

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from manoeuvres.driving import held_speed
-from manoeuvres.surface import sampled
+from manoeuvres.surface import check_length, sampled
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import HeightAndSlope, Road, cosine_bump
@@ -49,6 +49,7 @@ class UnevenRoad(Manoeuvre):
         return cosine_bump(x - self.speed * self.start, self.right_height if y < 0 else self.left_height, self.length)
 
     def road(self) -> Road:
+        check_length(self.length, "length")
         begin = self.speed * self.start
         x = [begin, begin + self.length]
         bumps = (("left", self.left_height, [0.0, 2.0]), ("right", self.right_height, [-2.0, 0.0]))

@@ -15,12 +15,13 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from .car_file import check_block, check_places
 from .elements.car import CAR_MARK, CAR_NUMERIC, HEAD, SIGNALS, WHEEL
 from .elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
 from .errors import InputError, SimulationError
 from .files import write_text
 from .meaning import Meaning, Output
-from .names import CORNERS, channel_name
+from .names import channel_name
 
 META = "susp_mj"
 
@@ -57,8 +58,9 @@ class Plant:
             _check_partners(spec, str(path))
             signals = len(SIGNALS) if any(numeric.name == CAR_NUMERIC for numeric in spec.numerics) else 0
             spec.nuserdata = max(spec.nuserdata, USERDATA_HEADER + len(spec.actuators) + signals)  # actuators may have been added by hand
+            check_block(spec, str(path))  # first: compiling runs the car once
             model = spec.compile()
-            _check_car(spec, model, str(path))
+            check_places(spec, model, str(path))
         except ValueError as error:
             reason = " ".join(str(error).split())
             raise InputError(f"is not a model that susp-mj built: {reason}", source=str(path)) from None
@@ -67,11 +69,14 @@ class Plant:
             raise InputError(f"is not a model that susp-mj built: it has no custom text '{META}'", source=str(path))
         data = model.text_data[model.text_adr[text] : model.text_adr[text] + model.text_size[text]]
         try:
-            return cls(model, Meaning.from_json(bytes(data).rstrip(b"\0").decode()))
+            plant = cls(model, Meaning.from_json(bytes(data).rstrip(b"\0").decode()))
         except (ValueError, KeyError, TypeError) as error:
             raise InputError(
                 f"is not a model that susp-mj built: its custom text '{META}' is broken: {error!r}", source=str(path)
             ) from None
+        if "wheelbase" in plant.meaning.facts and any(model.actuator(i).name == "fl_tyre" for i in range(model.nu)) and not signals:
+            raise InputError(f"is required; it holds the numbers of model {plant.meaning.model}", key=CAR_NUMERIC, source=str(path))
+        return plant
 
     @cached_property
     def laws(self) -> tuple[int, ...]:
@@ -149,25 +154,6 @@ def _check_partners(spec: mujoco.MjSpec, source: str) -> None:
                 key=f"actuator '{spec.actuators[i].name}'",
                 source=source,
             )
-
-
-def _check_car(spec: mujoco.MjSpec, model: mujoco.MjModel, source: str) -> None:
-    """Refuse a file in which the car's numbers address joints or actuators that are no longer where they say."""
-    places = [i for i, numeric in enumerate(spec.numerics) if numeric.name == CAR_NUMERIC]
-    if not places:
-        return
-    block = np.array(spec.numerics[places[0]].data)
-    whole = len(block) > len(HEAD) + 4 * len(WHEEL) and block[0] == CAR_MARK and block[HEAD.index("length")] == len(block)
-    if places[0] != 0 or not whole:
-        raise InputError("must be the first custom numeric, and whole", key=CAR_NUMERIC, source=source)
-    wheels = block[len(HEAD) : len(HEAD) + 4 * len(WHEEL)].reshape(4, len(WHEEL))
-    for corner, wheel in zip(CORNERS, wheels, strict=True):
-        expected = {"tyre": ("actuator", f"{corner}_tyre"), "travel_freedom": ("joint", f"{corner}_travel")}
-        expected |= {"spin_freedom": ("joint", f"{corner}_spin")}
-        for number, (kind, name) in expected.items():
-            index = model.actuator(name).id if kind == "actuator" else int(model.joint(name).dofadr[0])
-            if wheel[WHEEL.index(number)] != index:
-                raise InputError(f"{kind} '{name}' is not where the car's numbers say; keep the order", key=CAR_NUMERIC, source=source)
 
 
 def write_mjcf(spec: mujoco.MjSpec, meaning: Meaning, path: str | Path) -> Path:

@@ -286,7 +286,8 @@ def _diverged(run: Run, step: float) -> str:
     if "yaw_angle" in run and len(run.time) > 1:
         roll, pitch = run["roll_angle"][-2], run["pitch_angle"][-2]
         if max(abs(roll), abs(pitch)) > _FALLING:
-            return f"{who}: the car fell over at t = {run.time[-1]:.3f} s, its roll angle {np.degrees(roll):.0f}°"
+            name, angle = ("roll", roll) if abs(roll) >= abs(pitch) else ("pitch", pitch)
+            return f"{who}: the car fell over at t = {run.time[-1]:.3f} s, its {name} angle {np.degrees(angle):.0f}°"
     name = broken[0] if broken else max(accelerations, key=lambda each: abs(last[each]))
     return (
         f"{who}: diverged at t = {run.time[-1]:.4f} s, "

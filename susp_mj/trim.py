@@ -45,11 +45,11 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
         speed: [m/s].
 
     Raises:
-        InputError: the car cannot go that fast, or cannot carry its load.
+        InputError: the car cannot go that fast or that slowly, or cannot carry its load.
         SimulationError: no steady running found.
     """
     data, residual = _solved(plant, blocks, speed)
-    if speed > 0 and plant.meaning.driving and (not residual < SETTLED or _cannot_reach(plant, data)):
+    if speed > 0 and plant.meaning.driving and _cannot_reach(plant, data):
         top = _top_speed(plant, blocks, speed)
         if 0 < top < speed - TOP_SPEED_WITHIN:
             raise InputError(
@@ -61,6 +61,8 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
             f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s in model "
             f"{plant.meaning.model}; check preloads, sprung mass and tyres"
         )
+    if speed > 0 and plant.meaning.driving and signals_of(plant.model, data)[SIGNALS.index("accelerator")] < 0.0:
+        raise InputError(f"{speed:g} m/s is not allowed; idling in gear the car creeps faster, and nobody brakes", key="speed")
     joints = {travel.station: plant.model.joint(f"{travel.station}_travel") for travel in plant.meaning.travels}
     check_deflections(plant, {station: float(data.qpos[int(joint.qposadr[0])]) for station, joint in joints.items()})
     return data

@@ -106,7 +106,7 @@ def test_a_vehicle_file_beside_the_case_is_found(tmp_path):
         ('characteristics = "linear"', 'characteristics = "linaer"', ["chapter3.toml: characteristics: ", "did you mean 'linear'"]),
         ('name = "b"', 'name = "a"', ["mine.toml: configuration: ", "'a' names two configurations"]),
         ('name = "b"', 'name = "A"', ["mine.toml: configuration: ", "'A' names two configurations", "'a' is too much like it"]),
-        ('duration = "1 s"', "duration = 1e9", ["manoeuvre: duration: ", "too long", "10000 s"]),
+        ('duration = "1 s"', "duration = 1e9", ["mine.toml: manoeuvre.duration: ", "too long", "10000 s"]),
         ('name = "b"', 'name = "b"\nload = "heavy"', ["chapter3.toml: load: ", "heavy", "ko"]),
         ('name = "b"', 'name = "b"\naxle = "front"', ["chapter3.toml: axle: ", "front", "rear"]),
         ('["1200 N s/m"]', '["-5 N s/m"]', ["chapter3.toml: rear.damper.rates.0: ", "-5", "greater than 0"]),

@@ -439,7 +439,7 @@ def test_the_outline_touches_a_cone_with_its_side_not_its_centre_line():
     x = manoeuvre.speed * time - CAR.front
     for offset, hit in ((room - 0.01, 0.0), (room + 0.01, 3.0)):
         run = made_up(manoeuvre, time, position_x=x, position_y=np.full_like(time, offset))
-        assert course.cones_hit(run).value == hit
+        assert (course.cones_hit(run).value or 0.0) == hit  # the run ends in the first lane
 
 
 # ---- rig

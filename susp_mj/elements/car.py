@@ -50,6 +50,15 @@ WHEEL = (
     "rig_aligning",
 )  # fmt: skip
 """Numbers of one wheel."""
+CONTROLS = ("steering_wheel", "driver", "speed_target", "speed_control", "engine", "brake", "wind_x", "wind_y")
+RIG_CONTROLS = ("heave_target", "roll_target", "pitch_target")
+"""Numbers of the head that are actuators."""
+CURVES = {
+    "full_torque": 1, "drag_torque": 1, "path": 2, "swing": 1, "elastic_lateral": 2, "elastic_longitudinal": 1, "elastic_aligning": 1,
+}  # fmt: skip
+"""Numbers that are places of a `table`, and how many curves it has."""
+OPTIONAL = ("swing", "elastic_lateral", "elastic_longitudinal", "elastic_aligning")
+"""Tables that may be missing: place 0."""
 CAR_SIGNALS = (
     "gear", "shift_began", "trim_angle", "trimming", "driver_rate", "control_rate", "engine_rate", "steering_wheel_angle",
     "accelerator", "brake_pedal", "engine_speed", "engine_torque", "path_deviation", "control_force", "speed",
