@@ -55,7 +55,7 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
     case = validate(
         Case,
         {
-            "title": f"{kind}: {', '.join(str(each['name']) for each in settings)}",
+            "title": _title(kind, settings),
             "model": options["model"],
             "manoeuvre": {**parameters, "kind": kind},
             "configuration": settings,
@@ -72,6 +72,11 @@ def _default_load(kind: str, vehicle: str) -> str:
         return DESIGN_LOAD
     loads = read_toml(find_vehicle(vehicle)).get("loads", {})
     return TEST_LOAD if isinstance(loads, dict) and TEST_LOAD in loads else DESIGN_LOAD
+
+
+def _title(kind: str, settings: Sequence[dict[str, Any]]) -> str:
+    """What is driven, and by which configurations in which load cases."""
+    return f"{kind.replace('_', ' ').capitalize()}: " + ", ".join(f"{each['name']} (load {each['load']})" for each in settings)
 
 
 def default_model(kind: str) -> str:

@@ -16,6 +16,8 @@ FIT = (1.0, 4.0)
 """Lateral accelerations [m/s²] between which gradients are fitted: tyres and springs are near linear there."""
 LEFT = 0.03
 """Departure from a circle, as a share of its radius, at which the car no longer follows it."""
+LOST = 0.1
+"""Share of its speed after whose loss a car on a ramp of the steering wheel slides rather than turns."""
 AVERAGED: dict[str, float] = {"ramp_steer": 0.1, "steady_circle": 2.0}
 """Manoeuvre of which every instant is close to a steady turn -> length of the average that takes quick events out of it [s]."""
 SLOWLY_TIGHTENED = tuple(AVERAGED)
@@ -62,12 +64,16 @@ def deviation(run: Run) -> np.ndarray | None:
 
 
 def followed(run: Run) -> int:
-    """Number of records before the car leaves a circle that it shall follow by more than `LEFT`; all of them otherwise.
+    """Number of records before the car leaves the turn that it shall drive: a circle by more than `LEFT`, the speed of a ramp by `LOST`.
 
-    What comes after, a spin perhaps, is no steady turn any more.
+    What comes after, a spin perhaps, is no steady turn any more. All records of any other run.
     """
+    left = None
     away = deviation(run) if kind(run) == "steady_circle" else None
-    left = None if away is None else first(np.abs(away) > LEFT * abs(parameter(run, "radius", 100.0)))
+    if away is not None:
+        left = first(np.abs(away) > LEFT * abs(parameter(run, "radius", 100.0)))
+    elif kind(run) == "ramp_steer":
+        left = first(run["speed"] < (1 - LOST) * run["speed"][0])
     return len(run.time) if left is None else max(left, 2)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .handling import drives, first, followed, inner, lasting, missing
+from .handling import drives, first, followed, inner, kind, lasting, missing
 from .number import Number
 from .ride import CONTACT_LOST
 
@@ -40,12 +40,17 @@ def lifts(run: Run) -> list[Lift]:
     """Wheels that lift, in their order of time."""
     found = []
     for station, load in run.stations("wheel_load").items():
-        off = load[: followed(run)] <= CONTACT_LOST
+        off = load[: _watched(run)] <= CONTACT_LOST
         at = first(off)
         if at is not None:
             acceleration = abs(float(run["lateral_acceleration"][at]))
             found.append(Lift(station, at, float(run.time[at]), acceleration, lasting(off, run.step)))
     return sorted(found, key=lambda each: each.at)
+
+
+def _watched(run: Run) -> int:
+    """Number of records in which a lift counts: of a ramp all of them, a wheel may lift while the car slides."""
+    return len(run.time) if kind(run) == "ramp_steer" else followed(run)
 
 
 def wheel_lift_time(run: Run) -> Number:
@@ -87,7 +92,7 @@ def _inner_load(run: Run, order: int) -> Number:
     if not _turns(run):
         return missing("N", "does not turn")
     station = inner(run)[order]
-    last = followed(run)
+    last = _watched(run)
     acceleration = np.abs(run["lateral_acceleration"][:last])
     loads = np.where(acceleration >= TURNING, run[f"{station}_wheel_load"][:last], np.inf)
     at = int(np.argmin(loads))

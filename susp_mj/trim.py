@@ -21,6 +21,8 @@ _BRISTLE = 2  # which inner state of a wheel is the brake's
 _TRIM_ANGLE, _TRIMMING, _GEAR, _SHIFT_BEGAN = (SIGNALS.index(name) for name in ("trim_angle", "trimming", "gear", "shift_began"))
 SETTLED = 1e-6
 """Largest acceleration that counts as none [m/s² or rad/s²]."""
+CREEP = -0.05
+"""Accelerator below which the car, idling in gear, creeps faster than it shall go."""
 TOP_SPEED_WITHIN = 0.1
 """Accuracy of the top speed that an error names [m/s]."""
 
@@ -49,7 +51,7 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
         SimulationError: no steady running found.
     """
     data, residual = _solved(plant, blocks, speed)
-    if speed > 0 and plant.meaning.driving and _cannot_reach(plant, data):
+    if speed > 0 and plant.meaning.driving and (not residual < SETTLED or _cannot_reach(plant, data)):
         top = _top_speed(plant, blocks, speed)
         if 0 < top < speed - TOP_SPEED_WITHIN:
             raise InputError(
@@ -61,7 +63,7 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
             f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s in model "
             f"{plant.meaning.model}; check preloads, sprung mass and tyres"
         )
-    if speed > 0 and plant.meaning.driving and signals_of(plant.model, data)[SIGNALS.index("accelerator")] < 0.0:
+    if speed > 0 and plant.meaning.driving and signals_of(plant.model, data)[SIGNALS.index("accelerator")] < CREEP:
         raise InputError(f"{speed:g} m/s is not allowed; idling in gear the car creeps faster, and nobody brakes", key="speed")
     joints = {travel.station: plant.model.joint(f"{travel.station}_travel") for travel in plant.meaning.travels}
     check_deflections(plant, {station: float(data.qpos[int(joint.qposadr[0])]) for station, joint in joints.items()})

@@ -123,9 +123,9 @@ def test_brakes_and_engine(plant):
 
 @pytest.mark.parametrize(("side", "sign"), [("right", 1.0), ("left", -1.0)])
 def test_the_car_turns_to_the_side_with_grip(plant, side, sign):
-    run = simulate(plant, SplitMu(side=side, pedal=0.15, duration=3.0))
+    run = simulate(plant, SplitMu(side=side, pedal=0.3, duration=2.5))
     assert sign * run["yaw_angle"][-1] > math.radians(1.0)
-    steered = simulate(plant, SplitMu(side=side, pedal=0.15, duration=3.0, steered=True))
+    steered = simulate(plant, SplitMu(side=side, pedal=0.3, duration=2.5, steered=True))
     assert abs(steered["yaw_angle"][-1]) < abs(run["yaw_angle"][-1])
 
 

@@ -72,6 +72,8 @@ HOLD_PEDAL = 0.3
 PARKED = 0.01
 LIMITER_WIDTH = 0.03
 """The limiter takes the torque away while the engine's speed exceeds the map's last by this share."""
+SHIFT_OPEN, MATCHING_TIME = 0.6, 0.05
+"""Share of a shift for which the drive is open, and the time [s] in which the engine is brought to the speed of the new gear."""
 WIND_UP = 1.2
 
 
@@ -105,11 +107,12 @@ def steering(head, model, data, signals, path, position, heading, speed):
 
 
 @plain
-def shifted_gear(head, signals, time, shaft_speed, cruising):
+def shifted_gear(head, signals, time, shaft_speed, accelerator):
     """Gear at a speed of the propeller shaft; remembers gear and the beginning of a shift. The first call chooses a gear to cruise in.
 
-    The speed is that of wheels which roll: neither a locked wheel nor a spinning one shifts the box. With the speed controller
-    in charge the gear is held as long as the engine can turn in it, so that no shift disturbs a manoeuvre.
+    The speed is that of wheels which roll: neither a locked wheel nor a spinning one shifts the box. The accelerator is that of
+    the manoeuvre: released, as under braking or with the speed controller in charge, the gear is held as long as the engine can
+    turn in it; floored, `shift_down` holds; between, the threshold lies between.
     """
     count = int(head[GEARS])
     gear = int(signals[GEAR])
@@ -121,7 +124,8 @@ def shifted_gear(head, signals, time, shaft_speed, cruising):
         signals[SHIFT_BEGAN] = -1e3
     elif signals[TRIMMING] == 0.0 and time - signals[SHIFT_BEGAN] > max(head[SHIFT_TIME], 1e-3):
         engine_side = shaft_speed * head[GEAR_1 + gear - 1]
-        below = CRUISE_DOWN * head[IDLE_SPEED] if cruising else head[SHIFT_DOWN]
+        least = CRUISE_DOWN * head[IDLE_SPEED]
+        below = least + min(max(accelerator, 0.0), 1.0) * max(head[SHIFT_DOWN] - least, 0.0)
         if engine_side > head[SHIFT_UP] and gear < count:
             gear += 1
             signals[SHIFT_BEGAN] = time
@@ -145,7 +149,7 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
     engine_speed = act[ints(model.actuator_actadr)[engine]]
     time = data.time
     trimming = signals[TRIMMING] != 0.0
-    gear = shifted_gear(head, signals, time, abs(speed) / rolling_radius * head[FINAL_DRIVE], weight > 0.0)
+    gear = shifted_gear(head, signals, time, abs(speed) / rolling_radius * head[FINAL_DRIVE], demanded)
     ratio = head[GEAR_1 + gear - 1] * head[FINAL_DRIVE]
     input_speed = shaft_speed * head[GEAR_1 + gear - 1]
     full, _ = looked_up(doubles(place_of(base, head[FULL_TORQUE])), engine_speed)
@@ -172,14 +176,16 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
     limiter = 1.0 - min(max((engine_speed / head[ENGINE_LIMIT] - 1.0) / LIMITER_WIDTH, 0.0), 1.0)
     idle = min(max(head[IDLE_GAIN] * (head[IDLE_SPEED] - engine_speed), 0.0), head[IDLE_TORQUE])
     torque = drag + limiter * pedal * (full - drag) + idle
-    # a converter at standstill, locked up by a viscous clutch once the shaft turns faster than idling; a shift closes it anew
+    # a converter at standstill, locked up by a viscous clutch once the shaft turns faster than idling; a shift opens both, and
+    # until they close again the engine is brought to the shaft's speed
     lock = min(max(2.0 * input_speed / head[IDLE_SPEED] - 1.6, 0.0), 1.0)
     since = (time - signals[SHIFT_BEGAN]) / max(head[SHIFT_TIME], 1e-3)
-    closed = min(max(since, 0.0), 1.0)
+    closed = min(max((since - SHIFT_OPEN) / (1.0 - SHIFT_OPEN), 0.0), 1.0)
     slip = engine_speed - input_speed
-    passed = (head[CONVERTER] * max(engine_speed, 0.0) + lock * closed * head[COUPLING]) * slip
+    passed = closed * (head[CONVERTER] * max(engine_speed, 0.0) + lock * head[COUPLING]) * slip
     passed = min(max(passed, -head[COUPLING_LIMIT]), head[COUPLING_LIMIT])
-    signals[ENGINE_RATE] = (torque - passed) / head[ENGINE_INERTIA]
+    matched = (max(input_speed, head[IDLE_SPEED]) - engine_speed) / MATCHING_TIME
+    signals[ENGINE_RATE] = closed * (torque - passed) / head[ENGINE_INERTIA] + (1.0 - closed) * matched
     signals[ACCELERATOR], signals[ENGINE_SPEED], signals[ENGINE_TORQUE] = pedal, engine_speed, torque
     efficiency = head[EFFICIENCY] if passed > 0.0 else 1.0 / head[EFFICIENCY]
     return passed * ratio * efficiency / 2.0

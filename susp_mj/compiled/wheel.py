@@ -92,15 +92,22 @@ HELD_SLIP, HELD_TIME = 0.08, 0.05
 [s]. As a spring of the relaxation length a slip of 1 would throw the car back by half a metre."""
 SMALLEST_RELAXATION, SMALLEST_TIME = 0.05, 7e-4
 """Relaxation length [m] and time [s] of a tyre that hardly touches the road, however fast it slips: what steps of 1 ms integrate."""
+SLIDING_SLIP = 0.15
+"""Slip s_c at which the relaxation length has halved, about that of the largest force."""
 BUSHING_TIME = 0.005
 """Time constant [s] of the elastic suspension's answer to forces."""
 
 
 @plain
 def slip_rate(slip, sliding, rolling, relaxation, largest):
-    """As `elements.tyres.slip.slip_rate`, for a wheel that spins in the air too."""
+    """As `elements.tyres.slip.slip_rate`, for large slips and for a wheel that spins in the air too.
+
+    The relaxation length falls as ``sigma/(1 + (s/s_c)²)``, with the slope of the force over the slip: a tyre that slides is wound
+    up no further than its friction carries, and a locked wheel that grips again does not spring back.
+    """
     speed = max(abs(rolling), abs(sliding) / largest)
-    return (sliding - speed * slip) / max(relaxation, SMALLEST_RELAXATION, speed * SMALLEST_TIME)
+    length = relaxation / (1.0 + slip * slip / (SLIDING_SLIP * SLIDING_SLIP))
+    return (sliding - speed * slip) / max(length, SMALLEST_RELAXATION, speed * SMALLEST_TIME)
 
 
 @plain

@@ -39,6 +39,8 @@ WHEELS = ("fl", "fr", "rl", "rr")
 # what the theory page states of the car beyond its description
 BUSHING_TIME, BRISTLE, BRISTLE_TIME, BRISTLE_DAMPING = 0.005, 0.02, 1e-3, 2e-3
 LEAST_RELAXATION, LEAST_TIME = 0.05, 7e-4
+SLIDING_SLIP = 0.15
+SHIFT_OPEN, MATCHING_TIME = 0.6, 0.05
 CONTROL_GAIN, CONTROL_INTEGRAL, WIND_UP = 1.5, 0.5, 1.2
 STALL_SPEED, IDLE_GAIN, TRANSVERSE = 220.0, 10.0, 0.55
 
@@ -209,12 +211,15 @@ class ReferenceCar:
         share = wanted if self.free_pedal else min(max(wanted, 0.0), 1.0)
         stuck = (wanted > WIND_UP and error > 0) or (wanted < 1 - WIND_UP and error < 0)
         torque = drag + weight * share * (full - drag) + min(max(IDLE_GAIN * (train.idle_speed - engine), 0.0), self.idle_torque)
-        lock = min(max(2 * speed_in / train.idle_speed - 1.6, 0.0), 1.0) * min(since / max(train.shift_time, 1e-3), 1.0)
-        passed = (self.converter * engine + lock * train.coupling) * (engine - speed_in)
+        closed = min(max((since / max(train.shift_time, 1e-3) - SHIFT_OPEN) / (1 - SHIFT_OPEN), 0.0), 1.0)
+        lock = min(max(2 * speed_in / train.idle_speed - 1.6, 0.0), 1.0)
+        passed = closed * (self.converter * engine + lock * train.coupling) * (engine - speed_in)
         passed = min(max(passed, -2 * max(train.full_torque)), 2 * max(train.full_torque))
         efficiency = train.efficiency if passed > 0 else 1 / train.efficiency
         integral_rate = 0.0 if stuck else weight * CONTROL_INTEGRAL * self.whole * error
-        return passed * ratio * efficiency / 2, (torque - passed) / train.inertia, integral_rate
+        matched = (max(speed_in, train.idle_speed) - engine) / MATCHING_TIME
+        engine_rate = closed * (torque - passed) / train.inertia + (1 - closed) * matched
+        return passed * ratio * efficiency / 2, engine_rate, integral_rate
 
     def air(self, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Force and moment about the centre of gravity, body axes; still air."""
@@ -270,8 +275,10 @@ class ReferenceCar:
         tyre = np.array([corner.grip(*map(float, each)) for corner, *each in columns]).T
         fx, fy, mx, my, mz, sigma_x, sigma_y, effective = tyre
         size = np.abs(rolling)
-        kappa_rate = (spin * effective - rolling - size * s["kappa"]) / np.maximum(np.maximum(sigma_x, LEAST_RELAXATION), size * LEAST_TIME)
-        tan_rate = (lateral - size * s["tangent"]) / np.maximum(np.maximum(sigma_y, LEAST_RELAXATION), size * LEAST_TIME)
+        least = np.maximum(LEAST_RELAXATION, size * LEAST_TIME)
+        along, across = (sigma / (1 + (s[slip] / SLIDING_SLIP) ** 2) for sigma, slip in ((sigma_x, "kappa"), (sigma_y, "tangent")))
+        kappa_rate = (spin * effective - rolling - size * s["kappa"]) / np.maximum(along, least)
+        tan_rate = (lateral - size * s["tangent"]) / np.maximum(across, least)
         rubbing = spin - slope[2] * z_rate
         bristle_rate = (rubbing - np.abs(rubbing) * s["bristle"]) / np.maximum(BRISTLE, np.abs(rubbing) * BRISTLE_TIME)
         braking = self.brake * self.input("brake_pedal", t)[0] * np.clip(s["bristle"] + BRISTLE_DAMPING * bristle_rate, -1, 1)

@@ -62,7 +62,7 @@ def braking_in_turn(request) -> Case:
         20.0,
         2.2,
         steering_wheel_angle=[(0.2, 0.0), (0.5, 0.8 * angle)],
-        brake_pedal=[(1.0, 0.0), (1.2, 0.18)],
+        brake_pedal=[(1.0, 0.0), (1.2, 0.22)],
         speed_control=[(0.0, 1.0), (1.0, 1.0), (1.001, 0.0)],
     )
 
