@@ -109,8 +109,9 @@ def simulate(
     attach_input(data, blocks.inputs, blocks.road, blocks.driver)
     remind(plant, data, memory)
 
-    fields = (*_FIELDS, "userdata") if plant.contacts else _FIELDS
-    records = np.empty((steps // record_every + 1, sum(getattr(data, name).size for name in fields)))
+    fields = (*_FIELDS, "signals") if plant.contacts else _FIELDS
+    width = sum(getattr(data, name).size for name in _FIELDS) + (len(SIGNALS) if plant.contacts else 0)
+    records = np.empty((steps // record_every + 1, width))
     rows, done, sound = 0, 0, True
     chunk = max(_CHUNK // record_every, 1) * record_every
     while sound and done < steps:

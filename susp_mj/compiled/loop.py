@@ -11,8 +11,9 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 from llvmlite import binding
-from numba import njit, types
+from numba import carray, njit, types
 
+from ..elements.car import SIGNALS
 from ..elements.law import ACTUATOR_MARK, USERDATA_HEADER
 from ..errors import CallbackError
 from .layout import LAYOUT
@@ -55,10 +56,9 @@ def _run(model, data, steps, every, final, freedoms, acceleration, addresses, co
         if step % every == 0 or not sound:
             column = 0
             for source in range(len(addresses)):
-                values = doubles(addresses[source])
-                for i in range(counts[source]):
-                    out[row, column] = values[i]
-                    column += 1
+                count = counts[source]
+                out[row, column : column + count] = carray(doubles(addresses[source]), count)
+                column += count
             row += 1
         if not sound:
             return -1 - row
@@ -75,7 +75,7 @@ def advance(
     What is recorded belongs to the recorded time exactly: forces and accelerations are evaluated there first.
 
     Args:
-        fields: names of double arrays (or ``time``) of mjData.
+        fields: names of double arrays (or ``time``) of mjData, or ``signals``, what the compiled car writes.
         out: (rows, columns) array that takes the records.
         final: also record the state after the last step.
 
@@ -106,7 +106,7 @@ def _sources(data: mujoco.MjData, fields: Sequence[str]) -> tuple[np.ndarray, np
             addresses.append(data._address + LAYOUT.data["time"])
             counts.append(1)
         else:
-            values = getattr(data, name)
+            values = data.userdata[-len(SIGNALS) :] if name == "signals" else getattr(data, name)
             addresses.append(values.__array_interface__["data"][0])
             counts.append(values.size)
     return np.array(addresses, np.uint64), np.array(counts, np.int64)
