@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 from llvmlite import binding
-from numba import carray, njit, types
+from numba import carray, njit, types  # pyright: ignore[reportPrivateImportUsage]
 
 from ..elements.car import SIGNALS
 from ..elements.law import ACTUATOR_MARK, USERDATA_HEADER
