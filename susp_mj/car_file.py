@@ -12,14 +12,12 @@ from .names import CORNERS
 
 def check_block(spec: mujoco.MjSpec, source: str) -> None:
     """Refuse a car's block that is not whole, or that addresses something outside the model or itself."""
-    places = [i for i, numeric in enumerate(spec.numerics) if numeric.name == CAR_NUMERIC]
-    if not places:
+    if CAR_NUMERIC not in _names(spec):
         return
-    block = np.array(spec.numerics[places[0]].data)
+    block, wheels = _numbers(spec)
     whole = len(block) > len(HEAD) + 4 * len(WHEEL) and block[0] == CAR_MARK and block[HEAD.index("length")] == len(block)
-    if places[0] != 0 or not whole:
+    if _names(spec)[0] != CAR_NUMERIC or not whole:
         raise InputError("must be the first custom numeric, and whole", key=CAR_NUMERIC, source=source)
-    wheels = block[len(HEAD) : len(HEAD) + 4 * len(WHEEL)].reshape(4, len(WHEEL))
     sizes = {mujoco.mjtJoint.mjJNT_FREE: 6, mujoco.mjtJoint.mjJNT_BALL: 3}
     freedoms = sum(sizes.get(joint.type, 1) for joint in spec.joints)
     if block[HEAD.index("freedoms")] != freedoms:
@@ -34,11 +32,9 @@ def check_block(spec: mujoco.MjSpec, source: str) -> None:
 
 def check_places(spec: mujoco.MjSpec, model: mujoco.MjModel, source: str) -> None:
     """Refuse a file in which the car's numbers address joints or actuators that are no longer where they say."""
-    places = [i for i, numeric in enumerate(spec.numerics) if numeric.name == CAR_NUMERIC]
-    if not places:
+    if CAR_NUMERIC not in _names(spec):
         return
-    block = np.array(spec.numerics[places[0]].data)
-    wheels = block[len(HEAD) : len(HEAD) + 4 * len(WHEEL)].reshape(4, len(WHEEL))
+    _, wheels = _numbers(spec)
     for corner, wheel in zip(CORNERS, wheels, strict=True):
         expected = {"tyre": ("actuator", f"{corner}_tyre"), "travel_freedom": ("joint", f"{corner}_travel")}
         expected |= {"spin_freedom": ("joint", f"{corner}_spin")}
@@ -51,6 +47,17 @@ def check_places(spec: mujoco.MjSpec, model: mujoco.MjModel, source: str) -> Non
                 index = int(model.jnt_dofadr[index])
             if index < 0 or wheel[WHEEL.index(number)] != index:
                 raise InputError(f"{kind} '{name}' is not where the car's numbers say; keep the order", key=CAR_NUMERIC, source=source)
+
+
+def _names(spec: mujoco.MjSpec) -> list[str]:
+    return [numeric.name for numeric in spec.numerics]
+
+
+def _numbers(spec: mujoco.MjSpec) -> tuple[np.ndarray, np.ndarray]:
+    """The car's block, and of it the (4, n) numbers of the wheels; zeros where it is too short."""
+    block = np.array(spec.numerics[_names(spec).index(CAR_NUMERIC)].data)
+    wheels = block[len(HEAD) : len(HEAD) + 4 * len(WHEEL)]
+    return block, np.pad(wheels, (0, 4 * len(WHEEL) - len(wheels))).reshape(4, len(WHEEL))
 
 
 def _check_numbers(block: np.ndarray, wheels: np.ndarray, actuators: int, source: str) -> None:

@@ -54,11 +54,11 @@ class Manoeuvre(Description, ABC):
         """Road for a car that drives freely, its front axle at x = 0 when the run begins; None is level."""
         return None
 
-    def surface(self) -> Road | None:
-        """`road`, with the friction that the manoeuvre's `grip` gives all of it."""
+    def surface(self, road: Road | None) -> Road | None:
+        """A road with the friction that the manoeuvre's `grip` gives all of it; None is level."""
         from .roads import Road
 
-        road, grip = self.road(), float(getattr(self, "grip", 1.0))
+        grip = float(getattr(self, "grip", 1.0))
         return road if grip == 1.0 else dataclasses.replace(road or Road(), friction=grip)
 
     def driver(self) -> Driver | None:

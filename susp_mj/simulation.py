@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import functools
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -18,6 +19,7 @@ from .errors import InputError, SimulationError
 from .manoeuvre import Manoeuvre
 from .names import channel_name
 from .plant import Plant
+from .roads import Road
 from .run import Channel, Run, described
 from .trim import Blocks, remembered, remind, trimmed
 
@@ -96,9 +98,15 @@ def simulate(
             source="simulate",
         )
     steps = max(round(manoeuvre.duration / step / record_every), 1) * record_every
-    samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2))
-    blocks = _blocks(plant, manoeuvre, input_block(samples, step / 2, plant.entries()))
-    data = _at_start(plant, manoeuvre, samples, step)
+    road, driver = (manoeuvre.road(), manoeuvre.driver()) if plant.contacts else (None, None)
+    samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2), road)
+    surface = manoeuvre.surface(road) if plant.contacts else None
+    blocks = Blocks(
+        input_block(samples, step / 2, plant.entries()),
+        None if surface is None else surface.block(),
+        None if driver is None or not meaning.driving else driver.block(),
+    )
+    data = _at_start(plant, manoeuvre, samples, step, blocks)
 
     model = plant.model
     if model.opt.timestep != step:
@@ -107,7 +115,7 @@ def simulate(
     data.time = 0.0
     memory = remembered(plant, data)
     attach_input(data, blocks.inputs, blocks.road, blocks.driver)
-    remind(plant, data, memory)
+    remind(data, memory)
 
     fields = (*_FIELDS, "signals") if plant.contacts else _FIELDS
     width = sum(getattr(data, name).size for name in _FIELDS) + (len(SIGNALS) if plant.contacts else 0)
@@ -122,21 +130,13 @@ def simulate(
         if progress is not None:
             progress(done / steps)
     time = np.arange(rows) * (step * record_every)
-    run = _as_run(plant, manoeuvre, time, records[:rows], samples[:: 2 * record_every][:rows], step)
+    run = _as_run(plant, manoeuvre, time, records[:rows], samples[:: 2 * record_every][:rows], step, road, steered=driver is not None)
     if not sound or any(warning.number for warning in data.warning):
         raise SimulationError(_diverged(run, step))
     return run
 
 
-def _blocks(plant: Plant, manoeuvre: Manoeuvre, inputs: np.ndarray) -> Blocks:
-    """What the compiled code reads during a run."""
-    if not plant.contacts:
-        return Blocks(inputs)
-    road, driver = manoeuvre.surface(), manoeuvre.driver()
-    return Blocks(inputs, None if road is None else road.block(), None if driver is None or not plant.meaning.driving else driver.block())
-
-
-def _at_start(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray, step: float) -> mujoco.MjData:
+def _at_start(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray, step: float, blocks: Blocks) -> mujoco.MjData:
     """Data in the state from which the run begins: static equilibrium, or steady straight running."""
     from .compiled import input_block
 
@@ -145,7 +145,7 @@ def _at_start(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray, step: flo
     block = input_block(at_rest, step / 2, plant.entries())
     if not plant.contacts:
         return static_equilibrium(plant, block)
-    return trimmed(plant, _blocks(plant, manoeuvre, block), manoeuvre.driving_speed() if plant.meaning.driving else 0.0)
+    return trimmed(plant, dataclasses.replace(blocks, inputs=block), manoeuvre.driving_speed() if plant.meaning.driving else 0.0)
 
 
 def simulate_many(
@@ -173,13 +173,13 @@ def fine_enough(plant: Plant) -> int:
     return max(1, int(np.ceil(STEP / fastest - 1e-9)))
 
 
-def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray) -> np.ndarray:
-    """(samples, inputs, 2) values and rates of every input of the plant."""
+def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, road: Road | None = None) -> np.ndarray:
+    """(samples, inputs, 2) values and rates of every input of the plant; a car that drives meets its `road` itself."""
     samples = np.zeros((len(time), len(plant.meaning.inputs), 2))
-    over_ground = plant.meaning.driving and manoeuvre.road() is not None
+    over_ground = plant.meaning.driving and road is not None
     for i, place in enumerate(plant.meaning.inputs):
         if over_ground and place.quantity == "road_height":
-            continue  # the car meets the road itself
+            continue
         driven = manoeuvre.drive(place, time)
         if driven is None and plant.meaning.driving:
             driven = _holding(place.quantity, manoeuvre, time)
@@ -224,7 +224,17 @@ def _check_step(plant: Plant, step: float) -> None:
             )
 
 
-def _as_run(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, records: np.ndarray, inputs: np.ndarray, step: float) -> Run:
+def _as_run(
+    plant: Plant,
+    manoeuvre: Manoeuvre,
+    time: np.ndarray,
+    records: np.ndarray,
+    inputs: np.ndarray,
+    step: float,
+    road: Road | None,
+    *,
+    steered: bool,
+) -> Run:
     meaning, model = plant.meaning, plant.model
     by_column = np.empty(records.shape[::-1])
     for row in range(0, len(records), _BLOCK):  # a transpose that stays in the cache
@@ -240,7 +250,7 @@ def _as_run(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, records: np.nd
         motion = free_motion(columns["qpos"], columns["qvel"], columns["qacc"], meaning.facts)
         channels |= {quantity: described(quantity, values) for quantity, values in motion.items()}
     for output, values in plant.outputs(columns):
-        if output.quantity == "path_deviation" and manoeuvre.driver() is None:
+        if output.quantity == "path_deviation" and not steered:
             continue
         channels[channel_name(output.station, output.quantity)] = described(output.quantity, values, output.station)
     for i, place in enumerate(meaning.inputs):
@@ -261,15 +271,9 @@ def _as_run(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, records: np.nd
         "step": step,
         "integrator": "RK4",
         "versions": dict(_versions()),
-        **_features(plant, manoeuvre),
+        **({} if road is None else {"road": {"features": [dict(feature) for feature in road.features]}}),
     }
     return Run(time, channels, meta)
-
-
-def _features(plant: Plant, manoeuvre: Manoeuvre) -> dict[str, dict[str, list[dict[str, object]]]]:
-    """What a picture of the road shows."""
-    road = manoeuvre.road() if plant.contacts else None
-    return {} if road is None else {"road": {"features": [dict(feature) for feature in road.features]}}
 
 
 @functools.cache

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import copy
 from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 
-from .elements.car import CRUISE_ABOVE, HEAD, SIGNALS, WHEEL
+from .elements.car import CRUISE_ABOVE, HEAD, SIGNALS, WHEEL, signals_of
 from .elements.law import ACTUATOR_MARK
 from .equilibrium import check_deflections, rest_states, solve
 from .errors import InputError, SimulationError
@@ -51,7 +50,7 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
         SimulationError: no steady running found.
     """
     data, residual = _solved(plant, blocks, speed)
-    if speed > 0 and plant.meaning.driving and (not residual < SETTLED or _cannot_reach(plant, data)):
+    if speed > 0 and plant.meaning.driving and (not residual < SETTLED or _cannot_reach(data)):
         top = _top_speed(plant, blocks, speed)
         if 0 < top < speed - TOP_SPEED_WITHIN:
             raise InputError(
@@ -63,7 +62,7 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
             f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s in model "
             f"{plant.meaning.model}; check preloads, sprung mass and tyres"
         )
-    if speed > 0 and plant.meaning.driving and signals_of(plant.model, data)[SIGNALS.index("accelerator")] < CREEP:
+    if speed > 0 and plant.meaning.driving and signals_of(data.userdata)[SIGNALS.index("accelerator")] < CREEP:
         raise InputError(f"{speed:g} m/s is not allowed; idling in gear the car creeps faster, and nobody brakes", key="speed")
     joints = {travel.station: plant.model.joint(f"{travel.station}_travel") for travel in plant.meaning.travels}
     check_deflections(plant, {station: float(data.qpos[int(joint.qposadr[0])]) for station, joint in joints.items()})
@@ -87,9 +86,7 @@ def _solved(plant: Plant, blocks: Blocks, speed: float) -> tuple[mujoco.MjData, 
         return unknowns.left(data)
 
     values = solve(residual, unknowns.start(), SETTLED / 1e4)
-    left = residual(values)
-    mujoco.mj_forward(model, data)
-    return data, float(np.max(np.abs(left)))
+    return data, float(np.max(np.abs(residual(values))))
 
 
 def _own_actuators(model: mujoco.MjModel) -> np.ndarray:
@@ -101,7 +98,7 @@ class _Unknowns:
     """Which numbers of mjData are solved for, and which accelerations and rates must vanish."""
 
     def __init__(self, plant: Plant, speed: float) -> None:
-        model = self.model = plant.model
+        model = plant.model
         self.speed, self.driving = speed, plant.meaning.driving
         joint = model.joint
         self.travels = [int(joint(f"{corner}_travel").qposadr[0]) for corner in CORNERS]
@@ -150,7 +147,7 @@ class _Unknowns:
         if self.driving:
             data.qvel[0] = self.speed
             data.qvel[self.spins] = v[10:14]
-            signals = signals_of(self.model, data)
+            signals = signals_of(data.userdata)
             signals[_TRIM_ANGLE], signals[_TRIMMING] = v[-1], 1.0
             signals[_GEAR], signals[_SHIFT_BEGAN] = self.gear, -1e3
         else:
@@ -173,23 +170,18 @@ def _cruising(head: dict[str, float], spin: float) -> tuple[float, float]:
     return float(gear), max(spin * head["final_drive"] * head[f"gear_{max(gear, 1)}"], head["idle_speed"])
 
 
-def signals_of(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
-    """What the compiled car writes, in the order of `elements.car.SIGNALS`; a view into the data."""
-    return data.userdata[model.nuserdata - len(SIGNALS) :]
-
-
 def remembered(plant: Plant, data: mujoco.MjData) -> dict[int, float]:
     """What the car carries from the trim into the run, by its place among the signals: steering angle and gear."""
     if not plant.contacts:
         return {}
-    signals = signals_of(plant.model, data)
+    signals = signals_of(data.userdata)
     return {place: float(signals[place]) for place in (_TRIM_ANGLE, _GEAR, _SHIFT_BEGAN)}
 
 
-def remind(plant: Plant, data: mujoco.MjData, memory: dict[int, float]) -> None:
+def remind(data: mujoco.MjData, memory: dict[int, float]) -> None:
     """Give the car what it `remembered` back."""
     for place, value in memory.items():
-        signals_of(plant.model, data)[place] = value
+        signals_of(data.userdata)[place] = value
 
 
 def _state_scale(name: str, k: int) -> float:
@@ -200,9 +192,9 @@ def _state_scale(name: str, k: int) -> float:
     return 1.0
 
 
-def _cannot_reach(plant: Plant, data: mujoco.MjData) -> bool:
+def _cannot_reach(data: mujoco.MjData) -> bool:
     """Whether the controller asks for more than the engine gives."""
-    return bool(signals_of(plant.model, data)[SIGNALS.index("accelerator")] > 1.0)
+    return bool(signals_of(data.userdata)[SIGNALS.index("accelerator")] > 1.0)
 
 
 def _top_speed(plant: Plant, blocks: Blocks, too_fast: float) -> float:
@@ -210,9 +202,8 @@ def _top_speed(plant: Plant, blocks: Blocks, too_fast: float) -> float:
     low, high = 0.0, too_fast
     while high - low > TOP_SPEED_WITHIN:
         middle = (low + high) / 2
-        trial = copy.copy(blocks)
-        data, residual = _solved(plant, trial, middle)
-        if residual < SETTLED and not _cannot_reach(plant, data):
+        data, residual = _solved(plant, blocks, middle)
+        if residual < SETTLED and not _cannot_reach(data):
             low = middle
         else:
             high = middle

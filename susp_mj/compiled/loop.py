@@ -13,7 +13,7 @@ import numpy as np
 from llvmlite import binding
 from numba import carray, njit, types  # pyright: ignore[reportPrivateImportUsage]
 
-from ..elements.car import SIGNALS
+from ..elements.car import signals_of
 from ..elements.law import ACTUATOR_MARK, USERDATA_HEADER
 from ..errors import CallbackError
 from .layout import LAYOUT
@@ -106,7 +106,7 @@ def _sources(data: mujoco.MjData, fields: Sequence[str]) -> tuple[np.ndarray, np
             addresses.append(data._address + LAYOUT.data["time"])
             counts.append(1)
         else:
-            values = data.userdata[-len(SIGNALS) :] if name == "signals" else getattr(data, name)
+            values = signals_of(data.userdata) if name == "signals" else getattr(data, name)
             addresses.append(values.__array_interface__["data"][0])
             counts.append(values.size)
     return np.array(addresses, np.uint64), np.array(counts, np.int64)

@@ -27,13 +27,13 @@ HEAD = (
     "steering_wheel", "driver", "speed_target", "speed_control", "engine", "brake", "wind_x", "wind_y", "heave_target", "roll_target",
     "pitch_target",
     # steering
-    "steering_ratio", "steering_limit", "wheelbase", "rear_axle_x", "ground_z",
+    "steering_ratio", "steering_limit", "wheelbase", "ground_z",
     # speed controller
     "control_gain", "control_integral",
     # air
     "air_pressure", "drag", "lift_front", "lift_rear", "side_force", "yaw_moment", "air_x",
     # power train
-    "driven_rear", "engine_inertia", "idle_speed", "idle_gain", "idle_torque", "coupling", "converter", "coupling_limit",
+    "engine_inertia", "idle_speed", "idle_gain", "idle_torque", "coupling", "converter", "coupling_limit",
     "final_drive",
     "efficiency", "shift_up", "shift_down", "shift_time", "engine_limit",
     "gears", *(f"gear_{i}" for i in range(1, MOST_GEARS + 1)), "full_torque",
@@ -44,7 +44,7 @@ HEAD = (
 )  # fmt: skip
 """Numbers of the car as a whole; tables are given by their place in the block."""
 WHEEL = (
-    "side", "rear", "x", "y", "z", "travel_freedom", "steer_freedom", "spin_freedom", "tyre", "steering", "ackermann", "trail",
+    "side", "x", "y", "z", "travel_freedom", "steer_freedom", "spin_freedom", "tyre", "steering", "ackermann", "trail",
     "scrub", "drive_share", "brake_torque", "tyre_law", "tyre_parameters", "radius", "stiffness", "damping", "design_height", "path",
     "angles", "swing", "elastic_lateral", "elastic_longitudinal", "elastic_aligning", "rig_longitudinal", "rig_lateral",
     "rig_aligning",
@@ -106,6 +106,11 @@ def table(places: Sequence[float], *curves: Sequence[float] | np.ndarray, smooth
 def table_of_tables(start: float, spacing: float, tables: Sequence[np.ndarray]) -> np.ndarray:
     """A `table` for each even value of a second quantity: ``start, 1/spacing, m, length of a table``, then the tables one after another."""
     return np.concatenate([[start, 1 / spacing, len(tables), len(tables[0])], *tables])
+
+
+def signals_of(userdata: np.ndarray) -> np.ndarray:
+    """What the compiled car writes, in the order of `SIGNALS`: a view of the end of mjData's `userdata`."""
+    return userdata[-len(SIGNALS) :]
 
 
 def car_block(

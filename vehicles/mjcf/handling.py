@@ -17,7 +17,18 @@ import mujoco
 import numpy as np
 
 from susp_mj.elements import GRAVITY, Rig
-from susp_mj.elements.car import CAR_NUMERIC, CAR_SIGNALS, HEAD, MOST_GEARS, WHEEL_SIGNALS, WHEEL_STATES, car_block, table, table_of_tables
+from susp_mj.elements.car import (
+    CAR_NUMERIC,
+    CAR_SIGNALS,
+    CONTROLS,
+    MOST_GEARS,
+    RIG_CONTROLS,
+    WHEEL_SIGNALS,
+    WHEEL_STATES,
+    car_block,
+    table,
+    table_of_tables,
+)
 from susp_mj.errors import InputError
 from susp_mj.meaning import Meaning
 from susp_mj.names import CORNERS, QUANTITIES
@@ -28,8 +39,17 @@ from .parts import POINT_MASS, Form, ModelBuilder
 
 HANDLING = "handling"
 K_AND_C = "k_and_c"
-_INPUTS = {"driver": "", "speed_control": "speed_control", "brake": "brake_pedal", "wind_x": "wind_x", "wind_y": "wind_y"}
-_RIG_INPUTS = {"heave_target": "heave_target", "roll_target": "roll_target", "pitch_target": "pitch_target"}
+_STEERING = {"steering_wheel": ("steering_wheel_angle", 0)}
+_DRIVING = {
+    "driver": ("", 1),
+    "speed_target": ("speed_target", 1),
+    "engine": ("accelerator", 1),
+    "speed_control": ("speed_control", 0),
+    "brake": ("brake_pedal", 0),
+    "wind_x": ("wind_x", 0),
+    "wind_y": ("wind_y", 0),
+}
+"""Actuators of the car's inputs: the quantity that drives each, if any, and how many inner states it has."""
 _RIG_FORCES = {"rig_longitudinal": "longitudinal_force", "rig_lateral": "lateral_force", "rig_aligning": "aligning_moment"}
 _RIG_FREQUENCY = 300.0  # rad/s of the body on its servo: far above every suspension, resolved by a step of 1 ms
 _CONTROL_GAIN, _CONTROL_INTEGRAL = 1.5, 0.5  # 1/s, 1/s²: force of the speed controller per car mass and speed error
@@ -195,27 +215,17 @@ def _add_forces(builder: ModelBuilder, vehicle: Vehicle, wheel: _Wheel) -> None:
 def _add_controls(builder: ModelBuilder, wheels: Sequence[_Wheel], rig: str | None) -> list[str]:
     """Actuators whose `ctrl` are the car's inputs; returns their names, which are those of the block's head."""
     joint = wheels[0].corner.name("spin")
-    builder.control("steering_wheel", joint)
-    builder.drive("steering_wheel_angle", "steering_wheel", 1.0)
-    names = ["steering_wheel"]
-    if rig is None:
-        builder.control("driver", joint, 1)
-        builder.control("speed_target", joint, 1)
-        builder.drive("speed_target", "speed_target", 1.0)
-        builder.control("engine", joint, 1)
-        builder.drive("accelerator", "engine", 1.0)
-        names += ["driver", "speed_target", "engine"]
-    for name, quantity in (_INPUTS if rig is None else _RIG_INPUTS).items():
-        if name not in names:
-            builder.control(name, joint)
+    controls = _STEERING | (_DRIVING if rig is None else {name: (name, 0) for name in RIG_CONTROLS})
+    for name, (quantity, states) in controls.items():
+        builder.control(name, joint, states)
+        if quantity:
             builder.drive(quantity, name, 1.0)
-            names.append(name)
     if rig is not None:
         for wheel in wheels:
             for name, quantity in _RIG_FORCES.items():
                 builder.control(wheel.corner.name(name), joint)
                 builder.drive(quantity, wheel.corner.name(name), 1.0, wheel.corner.station)
-    return names
+    return list(controls)
 
 
 def _outputs(builder: ModelBuilder, wheels: Sequence[_Wheel], rig: str | None) -> None:
@@ -241,7 +251,6 @@ def _head(vehicle: Vehicle, mass: float, place: tuple[float, float, float]) -> d
         "steering_ratio": steering.ratio,
         "steering_limit": steering.limit,
         "wheelbase": vehicle.wheelbase,
-        "rear_axle_x": -vehicle.wheelbase - place[0],
         "ground_z": -place[2],
         "control_gain": _CONTROL_GAIN * mass,
         "control_integral": _CONTROL_INTEGRAL * mass,
@@ -252,7 +261,6 @@ def _head(vehicle: Vehicle, mass: float, place: tuple[float, float, float]) -> d
         "side_force": air.side,
         "yaw_moment": air.yaw,
         "air_x": -vehicle.wheelbase / 2 - place[0],
-        "driven_rear": float(train.driven == "rear"),
         "engine_inertia": train.inertia,
         "idle_speed": train.idle_speed,
         "idle_gain": _IDLE_GAIN,
@@ -291,8 +299,7 @@ def _block(
     train = vehicle.powertrain
     assert train is not None
     values = {**head, "freedoms": float(model.nv)}
-    values |= {name: float(model.actuator(name).id) if name in controls else -1.0 for name in HEAD if name in (*_INPUTS, *_RIG_INPUTS)}
-    values |= {name: float(model.actuator(name).id) if name in controls else -1.0 for name in ("steering_wheel", "speed_target", "engine")}
+    values |= {name: float(model.actuator(name).id) if name in controls else -1.0 for name in (*CONTROLS, *RIG_CONTROLS)}
     places: list[dict[str, float]] = []
     tables = [
         ("full_torque", -1, table(train.speed, train.full_torque, smooth=False, count=65)),
@@ -312,7 +319,6 @@ def _wheel_numbers(model: mujoco.MjModel, vehicle: Vehicle, wheel: _Wheel, rig: 
     share = brakes.front_share if wheel.front else 1 - brakes.front_share
     numbers = {
         "side": float(corner.side),
-        "rear": float(not wheel.front),
         "x": corner.x,
         "y": corner.y,
         "z": -case_z,
