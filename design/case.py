@@ -1,4 +1,5 @@
-"""Case files: one model, one manoeuvre, several configurations, criteria; run to a folder with summary, plots and report."""
+"""Case files: one model, one manoeuvre, several configurations, criteria; run to a folder with summary, plots and
+report."""
 
 from __future__ import annotations
 
@@ -162,7 +163,11 @@ def load_case(name: str | Path) -> tuple[Case, Path]:
 def with_film(case: Case, camera: str | None, *, ghost: bool, fine: bool) -> Case:
     """The case with its film as asked for on a command line; what is not asked for stays."""
     asked = {"camera": camera, "layout": "ghost" if ghost else None, "quality": "fine" if fine else None}
-    film = validate(Film, case.film.model_dump() | {name: value for name, value in asked.items() if value is not None}, source="video")
+    film = validate(
+        Film,
+        case.film.model_dump() | {name: value for name, value in asked.items() if value is not None},
+        source="video",
+    )
     return case.model_copy(update={"film": film})
 
 
@@ -224,7 +229,9 @@ def _of_manoeuvre(error: InputError, manoeuvre: Manoeuvre) -> InputError:
     return error
 
 
-def _outcome(case: Case, setting: Setting, vehicle: Vehicle, manoeuvre: Manoeuvre, run: Run, numbers: dict[str, Number]) -> Configuration:
+def _outcome(
+    case: Case, setting: Setting, vehicle: Vehicle, manoeuvre: Manoeuvre, run: Run, numbers: dict[str, Number]
+) -> Configuration:
     """A run with what a report shows beside it: characteristics, modes, exact amplifications."""
     title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, f"load {setting.load}") if part)
     if case.model == HANDLING:
@@ -238,7 +245,9 @@ def _outcome(case: Case, setting: Setting, vehicle: Vehicle, manoeuvre: Manoeuvr
     return Configuration(setting.name, title, run, numbers, curves, linear.modes(), transfer)
 
 
-def exact_transfer(linear: Linear, sweep: VerticalSweep, inputs: Sequence[Input]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def exact_transfer(
+    linear: Linear, sweep: VerticalSweep, inputs: Sequence[Input]
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Exact amplifications beside those of a sweep, of every channel that the report draws over frequency.
 
     As for the sweep, a channel of a wheel is related to that wheel's road, one of the body to the first wheel's.
@@ -251,7 +260,8 @@ def exact_transfer(linear: Linear, sweep: VerticalSweep, inputs: Sequence[Input]
         if channel.endswith(SWEEP_QUANTITIES):
             own = roads.get(channel.split("_", 1)[0], first)
             ratios = [
-                linear.transfer(channel, sweep.weights(inputs, each), np.array([each]))[0] / sweep.weight(own, each) for each in frequency
+                linear.transfer(channel, sweep.weights(inputs, each), np.array([each]))[0] / sweep.weight(own, each)
+                for each in frequency
             ]
             result[channel] = (frequency, np.array(ratios))
     return result
@@ -261,7 +271,9 @@ def _prepare(case: Case, manoeuvre: Manoeuvre, setting: Setting, path: Path, ind
     """Vehicle and plant of one configuration, errors naming its place in the case file."""
     name = setting.vehicle
     try:
-        vehicle = load_vehicle(path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set)
+        vehicle = load_vehicle(
+            path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set
+        )
         return vehicle, build(vehicle, case.model, str(setting.load), setting.axle, manoeuvre.rig)
     except InputError as error:
         if error.source:
@@ -297,8 +309,8 @@ def carry_out(
 ) -> Comparison:
     """Run a case and leave ``summary.json``, ``runs/*.nc``, ``plots/*.svg``, ``report.html`` and a video in `out`.
 
-    The folder receives everything at once at the end; after an error it is as it was. Only a video that fails leaves the
-    other results there, and its error is raised after them.
+    The folder receives everything at once at the end; after an error it is as it was. Only a video that fails leaves
+    the other results there, and its error is raised after them.
 
     Args:
         claims: published statements to hold against the results.
@@ -359,7 +371,8 @@ def file_name(label: str) -> str:
 
 @contextmanager
 def staged(out: Path) -> Iterator[Path]:
-    """A folder to write into; on success its contents replace earlier results in `out`, on any error nothing of it remains.
+    """A folder to write into; on success its contents replace earlier results in `out`, on any error nothing of it
+    remains.
 
     Raises:
         InputError: `out` cannot be written.

@@ -26,12 +26,18 @@ app = typer.Typer(
 )
 
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder for the results; made if it is not there.")]
-Video = Annotated[bool, typer.Option("--video", help="Also render an animation (needs EGL and ffmpeg, see 'susp-mj doctor').")]
-Characteristics = Annotated[str | None, typer.Option("--characteristics", "-c", help="Which of the car's sets of characteristics.")]
+Video = Annotated[
+    bool, typer.Option("--video", help="Also render an animation (needs EGL and ffmpeg, see 'susp-mj doctor').")
+]
+Characteristics = Annotated[
+    str | None, typer.Option("--characteristics", "-c", help="Which of the car's sets of characteristics.")
+]
 
 
 @app.command()
-def demo(out: Out = Path("out/demo"), video: Annotated[bool, typer.Option(help="Render the animation.")] = True) -> None:
+def demo(
+    out: Out = Path("out/demo"), video: Annotated[bool, typer.Option(help="Render the animation.")] = True
+) -> None:
     """Reproduce chapter 3 of the thesis: claims beside results, report and video."""
     from .case import carry_out, load_case
     from .reproduce import chapter3_claims
@@ -39,7 +45,9 @@ def demo(out: Out = Path("out/demo"), video: Annotated[bool, typer.Option(help="
 
     case, path = load_case("chapter3")
     with _progress() as progress:
-        comparison = carry_out(case, path, out, video=video and _can_make_video(), claims=chapter3_claims, progress=progress)
+        comparison = carry_out(
+            case, path, out, video=video and _can_make_video(), claims=chapter3_claims, progress=progress
+        )
     print_comparison(comparison)
     print_claims(comparison)
     _say_where(out)
@@ -53,8 +61,12 @@ def run(
     out: Annotated[Path | None, typer.Option("--out", "-o", help="Folder for the results; default out/CASE.")] = None,
     video: Video = False,
     camera: Annotated[str | None, typer.Option(help="Of a driving car: chase, front or side.")] = None,
-    ghost: Annotated[bool, typer.Option("--ghost", help="Two driving cars in one scene, the second translucent.")] = False,
-    fine: Annotated[bool, typer.Option("--fine", help="Finer pictures of driving cars, in about half again the time.")] = False,
+    ghost: Annotated[
+        bool, typer.Option("--ghost", help="Two driving cars in one scene, the second translucent.")
+    ] = False,
+    fine: Annotated[
+        bool, typer.Option("--fine", help="Finer pictures of driving cars, in about half again the time.")
+    ] = False,
     strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 if a criterion is not met.")] = False,
 ) -> None:
     """Run a case file: simulate every configuration, evaluate, compare, report."""
@@ -66,7 +78,9 @@ def run(
 
 
 @app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []})
-def drive(context: typer.Context, manoeuvre: Annotated[str, typer.Argument(help="Manoeuvre, see 'susp-mj list'.")]) -> None:
+def drive(
+    context: typer.Context, manoeuvre: Annotated[str, typer.Argument(help="Manoeuvre, see 'susp-mj list'.")]
+) -> None:
     """Drive one manoeuvre on named configurations: susp-mj drive bump --help."""
     from manoeuvres import find_manoeuvre
 
@@ -79,7 +93,9 @@ def drive(context: typer.Context, manoeuvre: Annotated[str, typer.Argument(help=
 @app.command()
 def show(
     car: Annotated[str, typer.Argument(help="Shipped car or vehicle file.")],
-    out: Annotated[Path | None, typer.Option("--out", "-o", help="Also write the characteristic sheet to this HTML file.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Also write the characteristic sheet to this HTML file.")
+    ] = None,
 ) -> None:
     """Show a car's characteristics: key values here, curves in the sheet."""
     from .show import print_sheet, write_car_sheet
@@ -186,7 +202,9 @@ def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool) -> Non
     from .case import carry_out
     from .show import print_comparison
 
-    mujoco.set_mju_user_warning(lambda _: None)  # else a file MUJOCO_LOG.TXT in this folder; what it says ends a run in one line
+    mujoco.set_mju_user_warning(
+        lambda _: None
+    )  # else a file MUJOCO_LOG.TXT in this folder; what it says ends a run in one line
     if video:
         _require_video()
     with _progress() as progress:
@@ -234,7 +252,12 @@ def _progress() -> Iterator[Report]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-    columns = (TextColumn("{task.description:<24}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
+    columns = (
+        TextColumn("{task.description:<24}"),
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f} %"),
+        TimeElapsedColumn(),
+    )
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=1.0)
         yield lambda name, done: bar.update(task, description=name, completed=done)
@@ -261,7 +284,10 @@ def _video_obstacle() -> str | None:
 
 
 def _say_where(out: Path) -> None:
-    typer.echo(f"results in {out}: report.html, summary.json, plots/, runs/" + (", video.mp4" if (out / "video.mp4").is_file() else ""))
+    typer.echo(
+        f"results in {out}: report.html, summary.json, plots/, runs/"
+        + (", video.mp4" if (out / "video.mp4").is_file() else "")
+    )
 
 
 if __name__ == "__main__":

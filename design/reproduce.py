@@ -32,7 +32,9 @@ def _value(configuration: Configuration, number: str) -> float:
     return float("nan") if value is None else value
 
 
-def _peak(text: str, configuration: Configuration, expected: float, *, read: float | None = None, tolerance: float = 0.05) -> Claim:
+def _peak(
+    text: str, configuration: Configuration, expected: float, *, read: float | None = None, tolerance: float = 0.05
+) -> Claim:
     """Peak acceleration against the independent solver; what the thesis reads off its figure stands beside it."""
     peak = _value(configuration, "body_acceleration_max")
     result = f"{peak:.3f} m/s²"

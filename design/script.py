@@ -29,8 +29,8 @@ TEST_LOAD = "empty"
 def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path, Path, bool]:
     """Case, its nominal path, output folder, and whether a video is wanted.
 
-    A configuration is one combination of the given vehicles, sets of characteristics and load cases. Without a vehicle, a
-    quarter car is that of chapter 3, any other model the whole car with two of its sets.
+    A configuration is one combination of the given vehicles, sets of characteristics and load cases. Without a vehicle,
+    a quarter car is that of chapter 3, any other model the whole car with two of its sets.
     """
     manoeuvre = MANOEUVRES[kind]
     options = vars(_parser(kind, manoeuvre).parse_args(arguments))
@@ -38,7 +38,9 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
     vehicles, chosen_sets = options["vehicle"], options["characteristics"]
     if not vehicles:
         quarter = options["model"].startswith("quarter")
-        vehicles, chosen_sets = ([DEFAULT_VEHICLE], chosen_sets) if quarter else ([WHOLE_CAR], chosen_sets or list(WHOLE_CAR_SETS))
+        vehicles, chosen_sets = (
+            ([DEFAULT_VEHICLE], chosen_sets) if quarter else ([WHOLE_CAR], chosen_sets or list(WHOLE_CAR_SETS))
+        )
     loads = {vehicle: options["load"] or [_default_load(kind, vehicle)] for vehicle in vehicles}
     settings = [
         dict(
@@ -76,11 +78,14 @@ def _default_load(kind: str, vehicle: str) -> str:
 
 def _title(kind: str, settings: Sequence[dict[str, Any]]) -> str:
     """What is driven, and by which configurations in which load cases."""
-    return f"{kind.replace('_', ' ').capitalize()}: " + ", ".join(f"{each['name']} (load {each['load']})" for each in settings)
+    return f"{kind.replace('_', ' ').capitalize()}: " + ", ".join(
+        f"{each['name']} (load {each['load']})" for each in settings
+    )
 
 
 def default_model(kind: str) -> str:
-    """Model that a manoeuvre is for: the car that drives freely, the body of an oscillation model, or the quarter car."""
+    """Model that a manoeuvre is for: the car that drives freely, the body of an oscillation model, or the quarter
+    car."""
     manoeuvre = MANOEUVRES[kind]
     drives = issubclass(manoeuvre, Driving) or manoeuvre.rig == K_AND_C
     return HANDLING if drives else BODY_MODELS.get(kind, DEFAULT_MODEL)
@@ -91,22 +96,40 @@ def _absolute(vehicle: str) -> str:
 
 
 def _label(vehicles: Sequence[str], vehicle: str, sets: str | None, load: str, loads: Sequence[str]) -> str:
-    parts = [Path(vehicle).stem if len(vehicles) > 1 or sets is None else "", sets or "", load if len(loads) > 1 else ""]
+    parts = [
+        Path(vehicle).stem if len(vehicles) > 1 or sets is None else "",
+        sets or "",
+        load if len(loads) > 1 else "",
+    ]
     return ", ".join(part for part in parts if part)
 
 
 def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog=f"{kind}.py", description=(manoeuvre.__doc__ or "").split("\n\n")[0], allow_abbrev=False)
-    parser.add_argument("--vehicle", action="append", help=f"car or vehicle file, repeatable (default {DEFAULT_VEHICLE} or {WHOLE_CAR})")
-    parser.add_argument("--characteristics", "-c", action="append", help="set of characteristics of the car, repeatable")
+    parser = argparse.ArgumentParser(
+        prog=f"{kind}.py", description=(manoeuvre.__doc__ or "").split("\n\n")[0], allow_abbrev=False
+    )
+    parser.add_argument(
+        "--vehicle", action="append", help=f"car or vehicle file, repeatable (default {DEFAULT_VEHICLE} or {WHOLE_CAR})"
+    )
+    parser.add_argument(
+        "--characteristics", "-c", action="append", help="set of characteristics of the car, repeatable"
+    )
     model = default_model(kind)
-    load = f"{TEST_LOAD} where the car has it, as ISO 15037-1 asks for, else {DESIGN_LOAD}" if model == HANDLING else DESIGN_LOAD
+    load = (
+        f"{TEST_LOAD} where the car has it, as ISO 15037-1 asks for, else {DESIGN_LOAD}"
+        if model == HANDLING
+        else DESIGN_LOAD
+    )
     parser.add_argument("--load", nargs="+", help=f"load cases (default {load})")
     parser.add_argument("--model", "-m", default=model, help=f"{', '.join(MODELS)} (default {model})")
     parser.add_argument("--axle", choices=("front", "rear"))
-    parser.add_argument("--out", "-o", type=Path, default=Path("out") / kind, help=f"folder for the results (default out/{kind})")
+    parser.add_argument(
+        "--out", "-o", type=Path, default=Path("out") / kind, help=f"folder for the results (default out/{kind})"
+    )
     parser.add_argument("--video", action="store_true", help="also render an animation")
-    parser.add_argument("--camera", choices=("chase", "front", "side"), help="of a driving car (default: what suits the manoeuvre)")
+    parser.add_argument(
+        "--camera", choices=("chase", "front", "side"), help="of a driving car (default: what suits the manoeuvre)"
+    )
     parser.add_argument("--ghost", action="store_true", help="two driving cars in one scene")
     parser.add_argument("--fine", action="store_true", help="finer pictures of driving cars")
     group = parser.add_argument_group("parameters", "a number in SI, or a text with its unit like '80 mm'")
@@ -115,7 +138,9 @@ def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
             unit = unit_of(field.metadata)
             text = f"default {field.default}{' ' + unit if unit else ''}"
             several = "+" if "tuple" in str(field.annotation) else None
-            group.add_argument(f"--{name.replace('_', '-')}", dest=name, type=_value, nargs=several, help=text, metavar=unit or "VALUE")
+            group.add_argument(
+                f"--{name.replace('_', '-')}", dest=name, type=_value, nargs=several, help=text, metavar=unit or "VALUE"
+            )
     return parser
 
 

@@ -29,7 +29,10 @@ def print_comparison(comparison: Comparison) -> None:
         table.add_column(each.name, justify="right")
     verdicts = [comparison.verdicts(each) for each in comparison.configurations]
     for name in comparison.configurations[0].numbers:
-        cells = [_cell(each.numbers[name], verdict.get(name)) for each, verdict in zip(comparison.configurations, verdicts, strict=True)]
+        cells = [
+            _cell(each.numbers[name], verdict.get(name))
+            for each, verdict in zip(comparison.configurations, verdicts, strict=True)
+        ]
         table.add_row(name, *cells)
     console = _console()
     console.print(table)
@@ -62,14 +65,28 @@ def print_claims(comparison: Comparison) -> None:
     for column in ("claim", "expected", "result", ""):
         table.add_column(column)
     for claim in comparison.claims:
-        table.add_row(Text(claim.text), claim.expected, claim.result, Text("holds", "green") if claim.holds else Text("FAILS", "bold red"))
+        table.add_row(
+            Text(claim.text),
+            claim.expected,
+            claim.result,
+            Text("holds", "green") if claim.holds else Text("FAILS", "bold red"),
+        )
     _console().print(table)
 
 
 def print_sheet(car: str) -> None:
     """Key values of every set of characteristics of a car."""
     table = Table(title=f"Characteristics of {car}, effective at the wheel", box=SIMPLE_HEAD, title_justify="left")
-    headings = ("set", "axle", "preload", "rate at KO", "frequency at KO", "travel", "damper at ±0.1 m/s", "at ±0.5 m/s")
+    headings = (
+        "set",
+        "axle",
+        "preload",
+        "rate at KO",
+        "frequency at KO",
+        "travel",
+        "damper at ±0.1 m/s",
+        "at ±0.5 m/s",
+    )
     for column in headings:
         table.add_column(column, justify="left" if column in ("set", "axle") else "right")
     for label, curves in _sets(car).items():
@@ -155,7 +172,9 @@ def print_lists() -> None:
 
     german = {name: alias for alias, name in ALIASES.items()}
     cars = {name: ", ".join(characteristic_sets(name)) for name in available_vehicles()}
-    first_lines = {name: _first_line(kind) + (f" ({german[name]})" if name in german else "") for name, kind in MANOEUVRES.items()}
+    first_lines = {
+        name: _first_line(kind) + (f" ({german[name]})" if name in german else "") for name, kind in MANOEUVRES.items()
+    }
     _print_pairs("Cars and their sets of characteristics", cars)
     _print_pairs("Models", MODELS)
     _print_pairs("Manoeuvres (German name)", first_lines)
@@ -219,8 +238,15 @@ def _cell(number: Number, verdict: dict[str, object] | None) -> Text:
 
 def _band(verdict: dict[str, object]) -> str:
     low, high, unit = verdict["min"], verdict["max"], str(verdict["unit"])
-    parts = [f"{sign} {quantity_text(float(str(bound)), unit)}" for sign, bound in ((">=", low), ("<=", high)) if bound is not None]
-    return f"({quantity_text(None if verdict['value'] is None else float(str(verdict['value'])), unit)}, allowed {' and '.join(parts)})"
+    parts = [
+        f"{sign} {quantity_text(float(str(bound)), unit)}"
+        for sign, bound in ((">=", low), ("<=", high))
+        if bound is not None
+    ]
+    return (
+        f"({quantity_text(None if verdict['value'] is None else float(str(verdict['value'])), unit)}, allowed "
+        f"{' and '.join(parts)})"
+    )
 
 
 def _console() -> Console:

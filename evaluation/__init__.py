@@ -2,7 +2,19 @@
 
 from __future__ import annotations
 
-from . import attitude, braking, comfort, cornering, course, frequency, kinematics, ride, steering_frequency, transient, wheel_lift
+from . import (
+    attitude,
+    braking,
+    comfort,
+    cornering,
+    course,
+    frequency,
+    kinematics,
+    ride,
+    steering_frequency,
+    transient,
+    wheel_lift,
+)
 from .number import Criterion, Evaluate, Number
 
 RIDE: tuple[Evaluate, ...] = (

@@ -51,14 +51,18 @@ def roll_angle_final(run: Run) -> Number:
 def roll_gradient(run: Run) -> Number:
     """Roll per lateral acceleration [rad/(m/s²)].
 
-    Where the lateral acceleration is held, at the end of the run; in a turn that a freely driving car tightens slowly, the slope
-    between 1 and 4 m/s².
+    Where the lateral acceleration is held, at the end of the run; in a turn that a freely driving car tightens slowly,
+    the slope between 1 and 4 m/s².
     """
     unit = "rad/(m/s²)"
     turning = tightening(run)
     if turning is not None and "roll_angle" in run:
         value = turning.gradient(turning.side * turning.part(run["roll_angle"]))
-        return Number(value, unit, f"between {FIT[0]:g} and {FIT[1]:g} m/s²" if value is not None else f"does not reach {FIT[1]:g} m/s²")
+        return Number(
+            value,
+            unit,
+            f"between {FIT[0]:g} and {FIT[1]:g} m/s²" if value is not None else f"does not reach {FIT[1]:g} m/s²",
+        )
     held = "lateral_acceleration" in run and run["lateral_acceleration"][-1] != 0.0 and _is_held(run)
     if not held or "roll_angle" not in run:
         return Number(None, unit, "needs a held lateral acceleration", applies=False)
@@ -148,18 +152,30 @@ def _bar(run: Run, axle: str) -> Number:
 
 
 def _is_held(run: Run) -> bool:
-    """Whether something drives the body and is held at the end, so that the end of the run is a state and not an instant."""
+    """Whether something drives the body and is held at the end, so that the end of the run is a state and not an
+    instant."""
     if drives(run) or kind(run) == RIG:
         return drives(run) and kind(run) not in SLOWLY_TIGHTENED and _turns_steadily(run)
-    return any(name in run and run[name][-1] != 0.0 for name in ("lateral_acceleration", "longitudinal_acceleration", "roll_target"))
+    return any(
+        name in run and run[name][-1] != 0.0
+        for name in ("lateral_acceleration", "longitudinal_acceleration", "roll_target")
+    )
 
 
 def _turns_steadily(run: Run) -> bool:
-    """Whether a freely driving car ends in a steady turn: steering wheel, speed and lateral acceleration no longer change."""
+    """Whether a freely driving car ends in a steady turn: steering wheel, speed and lateral acceleration no longer
+    change."""
     last = run.time > run.time[-1] - _LAST
-    acceleration, steering, speed = (run[name][last] for name in ("lateral_acceleration", "steering_wheel_angle", "speed"))
+    acceleration, steering, speed = (
+        run[name][last] for name in ("lateral_acceleration", "steering_wheel_angle", "speed")
+    )
     mean = abs(float(acceleration.mean()))
-    return bool(mean > 0.5 and np.ptp(acceleration) < 0.05 * mean and np.ptp(steering) < 1e-3 and np.ptp(speed) < 0.02 * speed.max())
+    return bool(
+        mean > 0.5
+        and np.ptp(acceleration) < 0.05 * mean
+        and np.ptp(steering) < 1e-3
+        and np.ptp(speed) < 0.02 * speed.max()
+    )
 
 
 def _not_held(unit: str) -> Number:

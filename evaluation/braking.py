@@ -1,4 +1,5 @@
-"""Numbers of braking and accelerating: deceleration, distances, times, wheel load distribution, how straight the car stays.
+"""Numbers of braking and accelerating: deceleration, distances, times, wheel load distribution, how straight the car
+stays.
 
 Braking begins as the pedal leaves its rest.
 
@@ -24,7 +25,8 @@ HUNDRED = 100 / 3.6
 
 
 def braking_deceleration(run: Run) -> Number:
-    """Mean fully developed deceleration [m/s²]: ``(v_b² - v_e²)/(2 s)`` over the way s from 80 to 10 % of the initial speed."""
+    """Mean fully developed deceleration [m/s²]: ``(v_b² - v_e²)/(2 s)`` over the way s from 80 to 10 % of the initial
+    speed."""
     begin = _braking_begins(run)
     if begin is None:
         return missing("m/s²", "does not brake")
@@ -33,7 +35,9 @@ def braking_deceleration(run: Run) -> Number:
         return Number(None, "m/s²", "does not slow down to 10 % of the speed")
     speed, way = run["speed"], distance(run)
     b, e = found
-    return Number(float((speed[b] ** 2 - speed[e] ** 2) / (2 * (way[e] - way[b]))), "m/s²", f"from {3.6 * speed[begin]:.0f} km/h")
+    return Number(
+        float((speed[b] ** 2 - speed[e] ** 2) / (2 * (way[e] - way[b]))), "m/s²", f"from {3.6 * speed[begin]:.0f} km/h"
+    )
 
 
 def stopping_distance(run: Run) -> Number:
@@ -92,7 +96,9 @@ def braking_lateral_deviation(run: Run) -> Number:
         return missing("metre", "does not brake on a straight road")
     sideways = sideways_from(run, begin)
     at = int(np.argmax(np.abs(sideways)))
-    return Number(abs(float(sideways[at])), "metre", _side(float(sideways[at]), "drifts") if abs(sideways[at]) > 0.01 else "")
+    return Number(
+        abs(float(sideways[at])), "metre", _side(float(sideways[at]), "drifts") if abs(sideways[at]) > 0.01 else ""
+    )
 
 
 def braking_yaw_ratio(run: Run) -> Number:
@@ -107,7 +113,11 @@ def braking_yaw_ratio(run: Run) -> Number:
     if later >= len(run.time) or run["speed"][later] < 1.0 or abs(run["yaw_rate"][begin]) < 1e-3:
         return Number(None, "1", "the run or the turn ends before")
     same_circle = run["yaw_rate"][begin] * run["speed"][later] / run["speed"][begin]
-    return Number(float(run["yaw_rate"][later] / same_circle), "1", f"at {abs(float(run['lateral_acceleration'][begin])):.1f} m/s² before")
+    return Number(
+        float(run["yaw_rate"][later] / same_circle),
+        "1",
+        f"at {abs(float(run['lateral_acceleration'][begin])):.1f} m/s² before",
+    )
 
 
 def acceleration_time_100(run: Run) -> Number:

@@ -24,9 +24,9 @@ def characteristic(title: str, axle: Any) -> Characteristic:
 
     Args:
         title: e.g. "rear axle".
-        axle: what carries a ``spring`` with its preload and stops, and a ``damper``; ``friction``, ``tyre`` and ``handling_tyre``
-            may be None.
-            A ``spring_ratio`` or ``damper_ratio`` adds the component's own characteristic.
+        axle: what carries a ``spring`` with its preload and stops, and a ``damper``; ``friction``, ``tyre`` and
+            ``handling_tyre`` may be None. A ``spring_ratio`` or ``damper_ratio`` adds the component's own
+            characteristic.
     """
     spring, damper = axle.spring, axle.damper
     stops = spring.stops
@@ -38,7 +38,9 @@ def characteristic(title: str, axle: Any) -> Characteristic:
         deflection=deflection,
         spring_force=spring.force_at(deflection) + stops.evaluate(deflection),
         spring_rate=np.where(inside, spring.rate_at(np.clip(deflection, stops.rebound, stops.compression)), np.nan),
-        spring_frequency=np.where(inside, _frequency(spring, np.clip(deflection, stops.rebound, stops.compression)), np.nan),
+        spring_frequency=np.where(
+            inside, _frequency(spring, np.clip(deflection, stops.rebound, stops.compression)), np.nan
+        ),
         speed=speed,
         damper_force=damper.force_at(speed),
         preload=float(spring.force_at(0.0)),
@@ -86,7 +88,9 @@ def _deflections(rebound: float, compression: float) -> np.ndarray:
     reach = BEYOND_STOPS * (compression - rebound)
     ends = [rebound - reach, rebound, 0.0, compression, compression + reach]
     counts = (8, 120, 120, 9)
-    return np.unique(np.concatenate([np.linspace(a, b, n) for a, b, n in zip(ends[:-1], ends[1:], counts, strict=True)]))
+    return np.unique(
+        np.concatenate([np.linspace(a, b, n) for a, b, n in zip(ends[:-1], ends[1:], counts, strict=True)])
+    )
 
 
 def _speeds() -> np.ndarray:

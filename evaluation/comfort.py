@@ -7,10 +7,11 @@ product of four transfer functions of ``s = 2 pi i f`` with ``w_n = 2 pi f_n`` (
 - transition from acceleration to velocity ``(1 + s/w3)/(1 + s/(Q4 w4) + (s/w4)²)``;
 - upward step ``(1 + s/(Q5 w5) + (s/w5)²)/(1 + s/(Q6 w6) + (s/w6)²) (w5/w6)²``.
 
-Wk weights the vertical (seat and feet), Wd the horizontal of the seat, Wc the fore-and-aft of the backrest, We rotations.
-For comfort the seat's three directions count with k = 1 (health: horizontal 1.4, vertical 1), the backrest's x, y, z with
-0.8, 0.5, 0.4, the feet's with 0.25, 0.25, 0.4, the seat's rotations with 0.63, 0.4, 0.2 m/rad about x, y, z. The numbers
-below are of the vertical alone, Wk with k = 1; other directions are to be added as the root of the sum of ``(k a)²``.
+Wk weights the vertical (seat and feet), Wd the horizontal of the seat, Wc the fore-and-aft of the backrest, We
+rotations. For comfort the seat's three directions count with k = 1 (health: horizontal 1.4, vertical 1), the backrest's
+x, y, z with 0.8, 0.5, 0.4, the feet's with 0.25, 0.25, 0.4, the seat's rotations with 0.63, 0.4, 0.2 m/rad about x, y,
+z. The numbers below are of the vertical alone, Wk with k = 1; other directions are to be added as the root of the sum
+of ``(k a)²``.
 
 The standard means the seat surface. A model has no cushion and no occupant: ``seat_acceleration`` is that of the floor
 under the driver's seat, and ``body_acceleration`` that of the body's centre of gravity.
@@ -29,11 +30,13 @@ from susp_mj.run import Run
 from .number import Number
 
 LEAST_SAMPLING = 500.0
-"""Records per second [Hz] that a weighting needs: 2.5 times the band limit of 100 Hz lie below the Nyquist frequency."""
+"""Records per second [Hz] that a weighting needs: 2.5 times the band limit of 100 Hz lie below the Nyquist
+frequency."""
 RUNNING_WINDOW = 1.0
 """Length of the running rms [s]."""
 SETTLING = 20.0
-"""Zeros appended before a signal is filtered [s]; the slowest pole, 1.8 1/s, leaves 1e-15 of anything that wraps around."""
+"""Zeros appended before a signal is filtered [s]; the slowest pole, 1.8 1/s, leaves 1e-15 of anything that wraps
+around."""
 _BUTTERWORTH = 1 / math.sqrt(2)
 
 
@@ -95,8 +98,9 @@ _COMFORT = (
 def weighted(values: np.ndarray, step: float, weighting: Weighting) -> np.ndarray:
     """A sampled signal after a weighting, exact up to the Nyquist frequency.
 
-    The spectrum is multiplied by the analogue transfer function; zeros appended make it the response of a filter at rest
-    before the first sample. What the signal holds above half the sampling frequency is folded before it comes here.
+    The spectrum is multiplied by the analogue transfer function; zeros appended make it the response of a filter at
+    rest before the first sample. What the signal holds above half the sampling frequency is folded before it comes
+    here.
 
     Args:
         values: (n,) samples.
@@ -109,7 +113,9 @@ def weighted(values: np.ndarray, step: float, weighting: Weighting) -> np.ndarra
         InputError: sampled too coarsely for the band limit of 100 Hz.
     """
     if not 0 < step * LEAST_SAMPLING <= 1 + 1e-9:
-        raise InputError(f"{1 / step:.4g} samples a second are too few; frequency weighting needs {LEAST_SAMPLING:g}", key="step")
+        raise InputError(
+            f"{1 / step:.4g} samples a second are too few; frequency weighting needs {LEAST_SAMPLING:g}", key="step"
+        )
     count = 2 ** math.ceil(math.log2(len(values) + SETTLING / step))
     spectrum = np.fft.rfft(values, count) * weighting.response(np.fft.rfftfreq(count, step))
     return np.fft.irfft(spectrum, count)[: len(values)]
@@ -129,8 +135,8 @@ def comfort_word(acceleration: float) -> str:
 def weighted_acceleration(run: Run) -> Number:
     """Wk-weighted rms of the vertical acceleration at the body's centre of gravity [m/s²].
 
-    ``a_w = sqrt(1/T ∫ a_w(t)² dt)`` over the whole run, k = 1; the note is the ISO's word for it. Compare runs of the same
-    manoeuvre and duration only: standing still before and after a bump counts as comfort.
+    ``a_w = sqrt(1/T ∫ a_w(t)² dt)`` over the whole run, k = 1; the note is the ISO's word for it. Compare runs of the
+    same manoeuvre and duration only: standing still before and after a bump counts as comfort.
     """
     return _weighted_rms(run, "body_acceleration")
 
@@ -138,7 +144,8 @@ def weighted_acceleration(run: Run) -> Number:
 def weighted_seat_acceleration(run: Run) -> Number:
     """Wk-weighted rms of the vertical acceleration at the driver's seat [m/s²].
 
-    As `weighted_acceleration`, where heave, pitch and roll come together at the driver's place; the floor, not the cushion.
+    As `weighted_acceleration`, where heave, pitch and roll come together at the driver's place; the floor, not the
+    cushion.
     """
     return _weighted_rms(run, "seat_acceleration")
 
@@ -146,7 +153,8 @@ def weighted_seat_acceleration(run: Run) -> Number:
 def vibration_dose_value(run: Run) -> Number:
     """Fourth-power vibration dose of the Wk-weighted vertical acceleration at the centre of gravity [m/s^1.75].
 
-    ``VDV = (∫ a_w(t)⁴ dt)^(1/4)``, k = 1: it grows with time and heeds shocks more than the rms (ISO 2631-1:1997, 6.3.2).
+    ``VDV = (∫ a_w(t)⁴ dt)^(1/4)``, k = 1: it grows with time and heeds shocks more than the rms (ISO 2631-1:1997,
+    6.3.2).
     """
     unit = "m/s^1.75"
     found = _weighted_channel(run, "body_acceleration", unit)

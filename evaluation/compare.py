@@ -124,7 +124,12 @@ class Configuration:
     def facts(self) -> dict[str, str]:
         """What was run, for the summary."""
         meta = self.run.meta
-        return {"vehicle": meta["vehicle"], "load": meta["load"], "model": meta["model"], "manoeuvre": meta["manoeuvre"]["kind"]}
+        return {
+            "vehicle": meta["vehicle"],
+            "load": meta["load"],
+            "model": meta["model"],
+            "manoeuvre": meta["manoeuvre"]["kind"],
+        }
 
 
 @dataclass(frozen=True)
@@ -189,7 +194,9 @@ class Comparison:
                 "configuration": each.name,
                 **each.facts,
                 "modes": [{"frequency": m.frequency, "damping": m.damping} for m in each.modes],
-                "numbers": {name: {"value": n.value, "unit": n.unit, "note": n.note} for name, n in each.numbers.items()},
+                "numbers": {
+                    name: {"value": n.value, "unit": n.unit, "note": n.note} for name, n in each.numbers.items()
+                },
                 "criteria": self.verdicts(each),
             }
             for each in self.configurations

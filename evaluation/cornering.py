@@ -1,8 +1,8 @@
 """Numbers of steady and slowly tightened turns: the largest lateral acceleration, self-steering, roll, load transfer.
 
-Gradients are slopes of straight lines between 1 and 4 m/s²; values "at 4 m/s²" are those at which the lateral acceleration first
-gets there. Angles count from the straight running at the beginning. The turn's side does not matter: everything is positive in the
-direction of the turn.
+Gradients are slopes of straight lines between 1 and 4 m/s²; values "at 4 m/s²" are those at which the lateral
+acceleration first gets there. Angles count from the straight running at the beginning. The turn's side does not matter:
+everything is positive in the direction of the turn.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ def lateral_acceleration_max(run: Run) -> Number:
 def understeer_gradient(run: Run) -> Number:
     """Understeer gradient, positive for understeer [rad/(m/s²)]: ``EG = d(delta_H/i - l a_y/v²)/d(a_y)``.
 
-    delta_H steering wheel angle, i steering ratio, l wheelbase: the steering beyond that of slip-free geometry. On a circle of
-    constant radius ``l a_y/v² = l/R`` does not change. The slope holds between 1 and 4 m/s².
+    delta_H steering wheel angle, i steering ratio, l wheelbase: the steering beyond that of slip-free geometry. On a
+    circle of constant radius ``l a_y/v² = l/R`` does not change. The slope holds between 1 and 4 m/s².
 
     Source: ISO 4138:2012; ISO 8855:2011, 5.3.5.
     """
@@ -60,7 +60,9 @@ def characteristic_speed(run: Run) -> Number:
     if gradient.value is None:
         return Number(None, "m/s", gradient.note)
     if gradient.value <= 0:
-        critical = "" if gradient.value == 0 else f": critical speed {3.6 * (wheelbase / -gradient.value) ** 0.5:.0f} km/h"
+        critical = (
+            "" if gradient.value == 0 else f": critical speed {3.6 * (wheelbase / -gradient.value) ** 0.5:.0f} km/h"
+        )
         return Number(None, "m/s", f"oversteers{critical}" if gradient.value < 0 else "neutral")
     value = (wheelbase / gradient.value) ** 0.5
     return Number(value, "m/s", f"{3.6 * value:.0f} km/h")
@@ -87,10 +89,12 @@ def roll_angle_at_7(run: Run) -> Number:
 
 
 def side_slip_gradient(run: Run) -> Number:
-    """Side slip angle per lateral acceleration at the centre of gravity [rad/(m/s²)]: ``SG = d(l_r a_y/v² - beta)/d(a_y)``.
+    """Side slip angle per lateral acceleration at the centre of gravity [rad/(m/s²)]: ``SG = d(l_r a_y/v² -
+    beta)/d(a_y)``.
 
-    ``l_r a_y/v²`` is the angle of slip-free rolling, l_r the distance of the centre of gravity from the rear axle. Positive: the
-    car points into the turn, ``SG`` being the slip angle of the rear axle. The slope holds between 1 and 4 m/s².
+    ``l_r a_y/v²`` is the angle of slip-free rolling, l_r the distance of the centre of gravity from the rear axle.
+    Positive: the car points into the turn, ``SG`` being the slip angle of the rear axle. The slope holds between 1 and
+    4 m/s².
 
     Source: ISO 4138:2012.
     """

@@ -1,4 +1,5 @@
-"""Numbers of the course over the ground: drift in wind and on a sloping road, cones of a lane change, the driver's deviation."""
+"""Numbers of the course over the ground: drift in wind and on a sloping road, cones of a lane change, the driver's
+deviation."""
 
 from __future__ import annotations
 
@@ -64,7 +65,9 @@ def cones_hit(run: Run) -> Number:
     points = np.array(track["points"], float)
     hit = [_touches(run, point, (x, y), float(track["radius"])) for point in points]
     named = ", ".join(
-        f"x = {point[0]:.0f} m {'left' if point[1] > 0 else 'right'}" for point, touched in zip(points, hit, strict=True) if touched
+        f"x = {point[0]:.0f} m {'left' if point[1] > 0 else 'right'}"
+        for point, touched in zip(points, hit, strict=True)
+        if touched
     )
     return Number(float(sum(hit)), "1", named) if named else _all_lanes(run, Number(0.0, "1", "none"))
 
@@ -114,20 +117,30 @@ def corners(run: Run) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """Paths of the four corners of the car's outline over the ground [m], by name."""
     (rear, front), (right, left) = outline(run)
     x, y, yaw = run["position_x"], run["position_y"], run["yaw_angle"]
-    places = {"front left": (front, left), "front right": (front, right), "rear left": (rear, left), "rear right": (rear, right)}
+    places = {
+        "front left": (front, left),
+        "front right": (front, right),
+        "rear left": (rear, left),
+        "rear right": (rear, right),
+    }
     return {
         name: (x + along * np.cos(yaw) - across * np.sin(yaw), y + along * np.sin(yaw) + across * np.cos(yaw))
         for name, (along, across) in places.items()
     }
 
 
-def _touches(run: Run, point: np.ndarray, outline: tuple[tuple[float, float], tuple[float, float]], radius: float) -> bool:
+def _touches(
+    run: Run, point: np.ndarray, outline: tuple[tuple[float, float], tuple[float, float]], radius: float
+) -> bool:
     """Whether the outline ever comes nearer to a point than a radius [m]."""
     yaw = run["yaw_angle"]
     dx, dy = point[0] - run["position_x"], point[1] - run["position_y"]
     along, across = dx * np.cos(yaw) + dy * np.sin(yaw), dy * np.cos(yaw) - dx * np.sin(yaw)
     (rear, front), (right, left) = outline
-    outside = np.hypot(np.maximum(np.maximum(rear - along, along - front), 0.0), np.maximum(np.maximum(right - across, across - left), 0.0))
+    outside = np.hypot(
+        np.maximum(np.maximum(rear - along, along - front), 0.0),
+        np.maximum(np.maximum(right - across, across - left), 0.0),
+    )
     return bool((outside < radius - 1e-9).any())
 
 
@@ -165,5 +178,7 @@ def _drift(run: Run, after: float) -> Number:
     if at >= len(sideways):
         return Number(None, "metre", "the run ends before")
     return Number(
-        abs(float(sideways[at])), "metre", f"to the {'left' if sideways[at] > 0 else 'right'}" if abs(sideways[at]) > 1e-3 else ""
+        abs(float(sideways[at])),
+        "metre",
+        f"to the {'left' if sideways[at] > 0 else 'right'}" if abs(sideways[at]) > 1e-3 else "",
     )

@@ -120,7 +120,9 @@ def make_panels(
         bottom = height - top - panel_height - (i // columns) * (panel_height + _ROW_GAP + title)
         box = (left / width, bottom / height, panel_width / width, panel_height / height)
         axes.append(figure.add_axes(box, sharey=axes[0] if share_y and axes else None))
-        if not share_y or i == 0:  # no steps of 2.5, whose numbers are so long that they push the axis' name out of the picture
+        if (
+            not share_y or i == 0
+        ):  # no steps of 2.5, whose numbers are so long that they push the axis' name out of the picture
             axes[-1].yaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
         if count > 1:
             axes[-1].set_title(short_label(titles[i]) if titles[i] else "")
@@ -211,7 +213,10 @@ def thinned(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarra
         return time, values
     whole = len(values) // size * size
     bins = values[:whole].reshape(-1, size)
-    extremes = np.sort(np.column_stack([bins.argmin(axis=1), bins.argmax(axis=1)]), axis=1) + np.arange(0, whole, size)[:, None]
+    extremes = (
+        np.sort(np.column_stack([bins.argmin(axis=1), bins.argmax(axis=1)]), axis=1)
+        + np.arange(0, whole, size)[:, None]
+    )
     keep = np.unique(np.concatenate([[0], extremes.ravel(), [len(values) - 1]]))
     return time[keep], values[keep]
 

@@ -1,9 +1,9 @@
 """Amplification over frequency, read from a vertical sine sweep by deconvolution.
 
-The spectrum of a channel over that of the road is a transfer function; back in time it is an impulse response. Because the
-sweep is exponential, the harmonics that a non-linear car adds end up well before time 0 in it and are cut away, so what
-remains is the first harmonic: for a linear car its transfer function, for a non-linear one the describing function at the
-sweep's amplitude.
+The spectrum of a channel over that of the road is a transfer function; back in time it is an impulse response. Because
+the sweep is exponential, the harmonics that a non-linear car adds end up well before time 0 in it and are cut away, so
+what remains is the first harmonic: for a linear car its transfer function, for a non-linear one the describing function
+at the sweep's amplitude.
 
 Source: A. Farina, 108th AES Convention (2000), 5093.
 """
@@ -52,7 +52,9 @@ def amplification(run: Run, channel: str, station: str = "", points: int = 200) 
     return deconvolved(reference, run[channel] - run[channel][0], run.step, (low, high), points)
 
 
-def deconvolved(reference: np.ndarray, response: np.ndarray, step: float, swept: tuple[float, float], points: int = 200) -> Amplification:
+def deconvolved(
+    reference: np.ndarray, response: np.ndarray, step: float, swept: tuple[float, float], points: int = 200
+) -> Amplification:
     """First harmonic of a response over a reference that is an exponential sine sweep.
 
     Args:
@@ -152,4 +154,6 @@ def _peak(run: Run, quantity: str, unit: str, *, place: bool = False) -> Number:
     peak, frequency, station = best
     if peak < 1e-9:
         return Number(None if place else 0.0, unit, "does not respond")
-    return Number(frequency if place else peak, unit, (station if place else f"{station} at {frequency:.2f} Hz").strip())
+    return Number(
+        frequency if place else peak, unit, (station if place else f"{station} at {frequency:.2f} Hz").strip()
+    )

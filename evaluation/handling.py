@@ -1,4 +1,5 @@
-"""What the numbers of a car that drives freely share: which run it is, which way it turns, values over lateral acceleration."""
+"""What the numbers of a car that drives freely share: which run it is, which way it turns, values over lateral
+acceleration."""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ LEFT = 0.03
 LOST = 0.1
 """Share of its speed after whose loss a car on a ramp of the steering wheel slides rather than turns."""
 AVERAGED: dict[str, float] = {"ramp_steer": 0.1, "steady_circle": 2.0}
-"""Manoeuvre of which every instant is close to a steady turn -> length of the average that takes quick events out of it [s]."""
+"""Manoeuvre of which every instant is close to a steady turn -> length of the average that takes quick events out of it
+[s]."""
 SLOWLY_TIGHTENED = tuple(AVERAGED)
 RIG = "suspension_rig"
 
@@ -64,7 +66,8 @@ def deviation(run: Run) -> np.ndarray | None:
 
 
 def followed(run: Run) -> int:
-    """Number of records before the car leaves the turn that it shall drive: a circle by more than `LEFT`, the speed of a ramp by `LOST`.
+    """Number of records before the car leaves the turn that it shall drive: a circle by more than `LEFT`, the speed of
+    a ramp by `LOST`.
 
     What comes after, a spin perhaps, is no steady turn any more. All records of any other run.
     """

@@ -1,4 +1,5 @@
-"""Plots of a car that drives freely: over lateral acceleration, over time, over frequency, over the ground, and of the rig."""
+"""Plots of a car that drives freely: over lateral acceleration, over time, over frequency, over the ground, and of the
+rig."""
 
 from __future__ import annotations
 
@@ -25,11 +26,32 @@ if TYPE_CHECKING:
     from .compare import Comparison, Configuration
 
 WORDS = {"fl": "front left", "fr": "front right", "rl": "rear left", "rr": "rear right"}
-_TRANSIENT = ("steering_wheel_angle", "yaw_rate", "lateral_acceleration", "roll_angle", "pitch_angle", "body_displacement")
-_COURSE = ("steering_wheel_angle", "yaw_rate", "lateral_acceleration", "side_slip_angle", "roll_angle", "path_deviation")
+_TRANSIENT = (
+    "steering_wheel_angle",
+    "yaw_rate",
+    "lateral_acceleration",
+    "roll_angle",
+    "pitch_angle",
+    "body_displacement",
+)
+_COURSE = (
+    "steering_wheel_angle",
+    "yaw_rate",
+    "lateral_acceleration",
+    "side_slip_angle",
+    "roll_angle",
+    "path_deviation",
+)
 _PEDALS = ("speed", "longitudinal_acceleration", "pitch_angle", "body_displacement")
 TOGETHER: dict[str, tuple[str, ...]] = {
-    "ramp_steer": ("steering_wheel_angle", "speed", "yaw_rate", "lateral_acceleration", "roll_angle", "rear_side_slip_angle"),
+    "ramp_steer": (
+        "steering_wheel_angle",
+        "speed",
+        "yaw_rate",
+        "lateral_acceleration",
+        "roll_angle",
+        "rear_side_slip_angle",
+    ),
     "step_steer": _TRANSIENT,
     "sine_steer": _TRANSIENT,
     "swept_steer": ("steering_wheel_angle", "yaw_rate", "lateral_acceleration", "roll_angle"),
@@ -39,8 +61,22 @@ TOGETHER: dict[str, tuple[str, ...]] = {
     "cross_slope": ("yaw_rate", "lateral_acceleration", "steering_wheel_angle", "path_deviation"),
     "acceleration": (*_PEDALS, "engine_speed", "gear"),
     "braking": _PEDALS,
-    "braking_in_turn": ("speed", "longitudinal_acceleration", "yaw_rate", "lateral_acceleration", "rear_side_slip_angle", "roll_angle"),
-    "split_mu": ("speed", "longitudinal_acceleration", "yaw_rate", "yaw_angle", "steering_wheel_angle", "path_deviation"),
+    "braking_in_turn": (
+        "speed",
+        "longitudinal_acceleration",
+        "yaw_rate",
+        "lateral_acceleration",
+        "rear_side_slip_angle",
+        "roll_angle",
+    ),
+    "split_mu": (
+        "speed",
+        "longitudinal_acceleration",
+        "yaw_rate",
+        "yaw_angle",
+        "steering_wheel_angle",
+        "path_deviation",
+    ),
 }
 """Manoeuvre -> quantities that are drawn over time in one figure."""
 STEERED = ("yaw_rate", "lateral_acceleration", "roll_angle", "side_slip_angle", "rear_side_slip_angle")
@@ -50,7 +86,12 @@ GROUND = ("lane_change", "crosswind", "cross_slope", "split_mu", "braking_in_tur
 CIRCLE_OF_FORCES = ("lane_change", "braking_in_turn", "split_mu")
 """Manoeuvres whose longitudinal acceleration is drawn over the lateral one, if both are there."""
 LOADED = ("acceleration", "braking", "braking_in_turn", "split_mu")
-_SHOWN = {"speed": Shown("km/h", 3.6), "path_deviation": Shown("m"), "engine_speed": Shown("1/min", 30 / np.pi), "gear": Shown("")}
+_SHOWN = {
+    "speed": Shown("km/h", 3.6),
+    "path_deviation": Shown("m"),
+    "engine_speed": Shown("1/min", 30 / np.pi),
+    "gear": Shown(""),
+}
 _STANDSTILL = 2.0  # m/s
 _FROM_START = ("body_displacement", "yaw_angle")
 _ACCELERATIONS = ("lateral_acceleration", "longitudinal_acceleration")
@@ -59,7 +100,8 @@ _ROUND = (4.4, 4.4)
 
 
 def handling_plots(comparison: Comparison) -> dict[str, str]:
-    """Plots of runs of a car that drives freely or stands on the kinematics rig, as SVG text by name; empty for other models."""
+    """Plots of runs of a car that drives freely or stands on the kinematics rig, as SVG text by name; empty for other
+    models."""
     driven = [each for each in comparison.configurations if drives(each.run) or kind(each.run) == RIG]
     if len(driven) < len(comparison.configurations) or not driven:
         return {}
@@ -80,7 +122,9 @@ def handling_plots(comparison: Comparison) -> dict[str, str]:
         plots["over_time_handling"] = draw_svg(_together_figure, driven)
     if manoeuvre in LOADED:
         plots["axle_loads_handling"] = draw_svg(_axle_load_figure, driven)
-    if manoeuvre in CIRCLE_OF_FORCES and any(min(np.ptp(each.run[name]) for name in _ACCELERATIONS) > 1.0 for each in driven):
+    if manoeuvre in CIRCLE_OF_FORCES and any(
+        min(np.ptp(each.run[name]) for name in _ACCELERATIONS) > 1.0 for each in driven
+    ):
         plots["accelerations_handling"] = draw_svg(_accelerations_figure, driven)
     return plots
 
@@ -104,7 +148,8 @@ def _lift_figure(configurations: Sequence[Configuration]) -> Figure:
     """Roll and the loads of the inner wheels over lateral acceleration; a wheel that lifts is marked."""
     inside = inner(configurations[0].run)
     figure, (roll, *loads) = make_panels(
-        [each.name for each in configurations], ["roll out of the turn", *(f"{WORDS[each]}, inner wheel" for each in inside)]
+        [each.name for each in configurations],
+        ["roll out of the turn", *(f"{WORDS[each]}, inner wheel" for each in inside)],
     )
     for order, each in enumerate(configurations):
         run, turning = each.run, tightening(each.run)
@@ -127,7 +172,8 @@ def _lift_figure(configurations: Sequence[Configuration]) -> Figure:
 
 
 def _mark_lifts(configurations: Sequence[Configuration], panels: Sequence[Axes]) -> bool:
-    """A ring where an inner wheel leaves the road on its line, with the lateral acceleration below it; whether any does."""
+    """A ring where an inner wheel leaves the road on its line, with the lateral acceleration below it; whether any
+    does."""
     found = False
     for row, panel in enumerate(panels):
         height, right = 0, panel.dataLim.x1
@@ -136,7 +182,15 @@ def _mark_lifts(configurations: Sequence[Configuration], panels: Sequence[Axes])
             last = 0 if turning is None else len(turning.acceleration)
             for lift in (lift for lift in lifts(each.run) if lift.station == station and lift.at < last):
                 outside = lift.acceleration > 0.8 * right
-                panel.plot([lift.acceleration], [0], "o", color=colour(order), markersize=7, markeredgecolor=LIFTED, markeredgewidth=1.6)
+                panel.plot(
+                    [lift.acceleration],
+                    [0],
+                    "o",
+                    color=colour(order),
+                    markersize=7,
+                    markeredgecolor=LIFTED,
+                    markeredgewidth=1.6,
+                )
                 panel.annotate(
                     f"lifts at {lift.acceleration:.1f}",
                     (lift.acceleration, 0),
@@ -154,7 +208,8 @@ def _mark_lifts(configurations: Sequence[Configuration], panels: Sequence[Axes])
 def _self_steering_figure(configurations: Sequence[Configuration]) -> Figure:
     """Steering wheel angle and side slip over lateral acceleration, beside the angle of slip-free geometry."""
     figure, (steering, slip) = make_panels(
-        [each.name for each in configurations], ["steering wheel angle; dotted: without slip", "side slip at the rear axle"]
+        [each.name for each in configurations],
+        ["steering wheel angle; dotted: without slip", "side slip at the rear axle"],
     )
     highest = 0.0
     for order, each in enumerate(configurations):
@@ -253,7 +308,9 @@ def _frequency_figure(configurations: Sequence[Configuration], quantity: str) ->
     """Gain, phase and coherence of a quantity over the frequency of the steering wheel."""
     from matplotlib.ticker import FuncFormatter, MultipleLocator, NullLocator
 
-    unit, factor = {"rad/s": ("1/s", 1.0), "m/s²": ("m/s² per 100°", np.radians(100.0))}.get(QUANTITIES[quantity][0], ("°/°", 1.0))
+    unit, factor = {"rad/s": ("1/s", 1.0), "m/s²": ("m/s² per 100°", np.radians(100.0))}.get(
+        QUANTITIES[quantity][0], ("°/°", 1.0)
+    )
     figure, panels = make_panels([each.name for each in configurations], ["gain", "phase", "coherence"])
     for order, each in enumerate(configurations):
         found = steering_response(each.run, quantity)
@@ -287,7 +344,9 @@ def _ground_figure(configurations: Sequence[Configuration]) -> Figure:
     _draw_features(panel, configurations[0].run)
     for order, each in enumerate(configurations):
         run = each.run
-        beside = corners(run).values() if cones(run) is not None else _front_wheels(run) if kind(run) == "split_mu" else ()
+        beside = (
+            corners(run).values() if cones(run) is not None else _front_wheels(run) if kind(run) == "split_mu" else ()
+        )
         for x, y in beside:
             panel.plot(*_way(x, y), color=colour(order), linewidth=0.6, alpha=0.55)
         draw_line(panel, order, *_way(run["position_x"], run["position_y"]))
@@ -418,14 +477,22 @@ RIG_CURVES: dict[str, tuple[tuple[str, str, _Sampled], ...]] = {
     ),
     "steer": (
         ("steering wheel angle [°]", "mean steer angle [°]", _mean_over_body("steering_wheel_angle", "steer_angle")),
-        ("steering wheel angle [°]", "mean camber to the road [°]", _mean_over_body("steering_wheel_angle", "camber_angle")),
+        (
+            "steering wheel angle [°]",
+            "mean camber to the road [°]",
+            _mean_over_body("steering_wheel_angle", "camber_angle"),
+        ),
     ),
     "lateral_force": (
         ("lateral force [kN]", "steer angle [°]", _left("lateral_force", "steer_angle", 1e-3, _DEGREE)),
         ("lateral force [kN]", "camber to the road [°]", _left("lateral_force", "camber_angle", 1e-3, _DEGREE)),
     ),
-    "longitudinal_force": (("longitudinal force [kN]", "toe-in [°]", _left("longitudinal_force", "steer_angle", 1e-3, -_DEGREE)),),
-    "aligning_moment": (("aligning moment [N m]", "steer angle [°]", _left("aligning_moment", "steer_angle", 1.0, _DEGREE)),),
+    "longitudinal_force": (
+        ("longitudinal force [kN]", "toe-in [°]", _left("longitudinal_force", "steer_angle", 1e-3, -_DEGREE)),
+    ),
+    "aligning_moment": (
+        ("aligning moment [N m]", "steer angle [°]", _left("aligning_moment", "steer_angle", 1.0, _DEGREE)),
+    ),
 }
 """Test of the rig -> curves: name of x, name of y, and how both are taken from a run and an axle."""
 

@@ -1,7 +1,7 @@
 """Numbers of the kinematics and compliance rig, per axle: slopes in the design position.
 
-Over travel they hold within 20 mm of the design position, over forces within half the amplitude of the test. A wheel's toe is positive
-inwards, its camber positive with the top outwards; left and right are averaged as mirror images.
+Over travel they hold within 20 mm of the design position, over forces within half the amplitude of the test. A wheel's
+toe is positive inwards, its camber positive with the top outwards; left and right are averaged as mirror images.
 
 Source: definitions as in ISO 8855:2011; W. Matschinsky, Radführungen der Straßenfahrzeuge.
 """
@@ -54,32 +54,38 @@ def wheel_rate_rear(run: Run) -> Number:
 
 
 def roll_centre_height_front(run: Run) -> Number:
-    """Height of the front roll centre above the ground [m]: ``t/2 dy/dz``, y the contact patch's movement outwards over travel z."""
+    """Height of the front roll centre above the ground [m]: ``t/2 dy/dz``, y the contact patch's movement outwards over
+    travel z."""
     return _roll_centre(run, "front")
 
 
 def roll_centre_height_rear(run: Run) -> Number:
-    """Height of the rear roll centre above the ground [m]: ``t/2 dy/dz``, y the contact patch's movement outwards over travel z."""
+    """Height of the rear roll centre above the ground [m]: ``t/2 dy/dz``, y the contact patch's movement outwards over
+    travel z."""
     return _roll_centre(run, "rear")
 
 
 def path_angle_front(run: Run) -> Number:
-    """Angle of a front wheel's path, positive: anti-dive [rad]: ``atan(dx/dz)``, x the contact patch's movement forwards in bump."""
+    """Angle of a front wheel's path, positive: anti-dive [rad]: ``atan(dx/dz)``, x the contact patch's movement
+    forwards in bump."""
     return _path_angle(run, "front", 1.0)
 
 
 def path_angle_rear(run: Run) -> Number:
-    """Angle of a rear wheel's path, positive: anti-lift [rad]: ``atan(-dx/dz)``, x the contact patch's movement forwards in bump."""
+    """Angle of a rear wheel's path, positive: anti-lift [rad]: ``atan(-dx/dz)``, x the contact patch's movement
+    forwards in bump."""
     return _path_angle(run, "rear", -1.0)
 
 
 def roll_steer_front(run: Run) -> Number:
-    """Mean steer angle of the front wheels per roll angle [rad/rad], positive: roll steers them into the turn that causes it."""
+    """Mean steer angle of the front wheels per roll angle [rad/rad], positive: roll steers them into the turn that
+    causes it."""
     return _over_roll(run, "front", "steer_angle")
 
 
 def roll_steer_rear(run: Run) -> Number:
-    """Mean steer angle of the rear wheels per roll angle [rad/rad], positive: roll steers them into the turn that causes it."""
+    """Mean steer angle of the rear wheels per roll angle [rad/rad], positive: roll steers them into the turn that
+    causes it."""
     return _over_roll(run, "rear", "steer_angle")
 
 
@@ -94,12 +100,14 @@ def roll_camber_rear(run: Run) -> Number:
 
 
 def roll_stiffness_front(run: Run) -> Number:
-    """Roll stiffness of the front suspension [N m/rad]: ``t/2 d(F_r - F_l)/d phi``, phi from the difference of the wheels' travels."""
+    """Roll stiffness of the front suspension [N m/rad]: ``t/2 d(F_r - F_l)/d phi``, phi from the difference of the
+    wheels' travels."""
     return _roll_stiffness(run, "front")
 
 
 def roll_stiffness_rear(run: Run) -> Number:
-    """Roll stiffness of the rear suspension [N m/rad]: ``t/2 d(F_r - F_l)/d phi``, phi from the difference of the wheels' travels."""
+    """Roll stiffness of the rear suspension [N m/rad]: ``t/2 d(F_r - F_l)/d phi``, phi from the difference of the
+    wheels' travels."""
     return _roll_stiffness(run, "rear")
 
 
@@ -168,7 +176,8 @@ def _fit(x: np.ndarray, y: np.ndarray, reach: float) -> float | None:
 
 
 def _over_travel(run: Run, axle: str, quantity: str, unit: str, *, mirrored: float = 1.0) -> Number:
-    """Mean slope over the travel of an axle's wheels; a mirrored quantity counts with that sign on the left, its opposite on the right."""
+    """Mean slope over the travel of an axle's wheels; a mirrored quantity counts with that sign on the left, its
+    opposite on the right."""
     if not _tested(run, "bump"):
         return missing(unit, "needs the test 'bump' on the rig")
     signs = (mirrored, 1.0) if mirrored < 0 else (1.0, 1.0)
@@ -209,7 +218,8 @@ def _roll_stiffness(run: Run, axle: str) -> Number:
     if not _tested(run, "roll") or track is None:
         return missing(unit, "needs the test 'roll' on the rig")
     (left, right), (load_left, load_right) = (
-        [run[f"{station}_{quantity}"] for station in stations_of(axle)] for quantity in ("suspension_deflection", "wheel_load")
+        [run[f"{station}_{quantity}"] for station in stations_of(axle)]
+        for quantity in ("suspension_deflection", "wheel_load")
     )
     angle = (right - left) / track
     found = _fit(angle, track / 2 * (load_right - load_left), SHARE * float(np.abs(angle).max()))
@@ -239,4 +249,8 @@ def _toe_over_force(run: Run, axle: str) -> Number:
 
 def _average(slopes: list[float | None], unit: str, note: str) -> Number:
     known = [each for each in slopes if each is not None]
-    return Number(sum(known) / len(known), unit, note) if len(known) == len(slopes) else Number(None, unit, "does not move far enough")
+    return (
+        Number(sum(known) / len(known), unit, note)
+        if len(known) == len(slopes)
+        else Number(None, unit, "does not move far enough")
+    )

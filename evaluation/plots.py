@@ -18,7 +18,20 @@ from susp_mj.names import QUANTITIES, channel_name
 
 from .colours import COLOURS, LIFTED
 from .display import shown
-from .figures import GRID, INK, MUTED, PAPER, colour, draw_line, draw_svg, label_axes, make_panels, spans, stop_lines, thinned
+from .figures import (
+    GRID,
+    INK,
+    MUTED,
+    PAPER,
+    colour,
+    draw_line,
+    draw_svg,
+    label_axes,
+    make_panels,
+    spans,
+    stop_lines,
+    thinned,
+)
 from .frequency import amplification
 from .handling_plots import handling_plots, shown_together
 from .ride import CONTACT_LOST, INPUTS
@@ -45,7 +58,14 @@ TIME_QUANTITIES = (
     "rig_moment",
 )
 ELEMENT_FORCES = ("spring_force", "stop_force", "damper_force", "bar_force", "friction_force")
-SWEEP_QUANTITIES = ("body_displacement", "body_acceleration", "pitch_angle", "roll_angle", "suspension_deflection", "wheel_load")
+SWEEP_QUANTITIES = (
+    "body_displacement",
+    "body_acceleration",
+    "pitch_angle",
+    "roll_angle",
+    "suspension_deflection",
+    "wheel_load",
+)
 STATIONS = {
     "fl": "front left",
     "fr": "front right",
@@ -113,7 +133,8 @@ def time_plots(comparison: Comparison) -> dict[str, str]:
 
 
 def _is_quiet(configurations: Sequence[Configuration], quantity: str) -> bool:
-    """Whether a quantity is not worth a plot: an input that is not used, or anything that a handling car hardly moves."""
+    """Whether a quantity is not worth a plot: an input that is not used, or anything that a handling car hardly
+    moves."""
     if any(each.run.meta.get("model") != HANDLING for each in configurations):
         return quantity in INPUTS and _stands_still(configurations, quantity)
     least = _QUIET.get(QUANTITIES[quantity][0], 0.0)
@@ -130,7 +151,11 @@ def _acting(configurations: Sequence[Configuration], quantity: str) -> list[str]
     stations = _stations(configurations, quantity)
     if quantity == "friction_force" and len(stations) > 1:
         return []
-    return stations if any(np.any(values) for each in configurations for values in each.run.stations(quantity).values()) else []
+    return (
+        stations
+        if any(np.any(values) for each in configurations for values in each.run.stations(quantity).values())
+        else []
+    )
 
 
 def characteristic_plots(sets: Mapping[str, Sequence[Characteristic]]) -> dict[str, str]:
@@ -144,9 +169,13 @@ def characteristic_plots(sets: Mapping[str, Sequence[Characteristic]]) -> dict[s
     titles = list(dict.fromkeys(each.title for characteristics in sets.values() for each in characteristics))
     if not titles:
         return {}
-    plots = {name: draw_svg(_characteristic_figure, sets, titles, draw_one) for name, draw_one in _CHARACTERISTICS.items()}
+    plots = {
+        name: draw_svg(_characteristic_figure, sets, titles, draw_one) for name, draw_one in _CHARACTERISTICS.items()
+    }
     for name, (part, draw_one) in _COMPONENTS.items():
-        known = {key: [each for each in characteristics if getattr(each, part)] for key, characteristics in sets.items()}
+        known = {
+            key: [each for each in characteristics if getattr(each, part)] for key, characteristics in sets.items()
+        }
         there = [title for title in titles if any(each.title == title for each in itertools.chain(*known.values()))]
         if there:
             plots[name] = draw_svg(_characteristic_figure, known, there, draw_one)
@@ -178,7 +207,9 @@ def for_page(svg: str) -> str:
     dark = {**_DARK, **{f"c{i}": on_dark(each) for i, each in enumerate(COLOURS)}}
     names = {value: name for name, value in light.items()}
     svg = re.sub(f"((?:fill|stroke): )({'|'.join(names)})", lambda found: f"{found[1]}var(--{names[found[2]]})", svg)
-    rules = [":root{" + ";".join(f"--{name}:{value}" for name, value in scheme.items()) + "}" for scheme in (light, dark)]
+    rules = [
+        ":root{" + ";".join(f"--{name}:{value}" for name, value in scheme.items()) + "}" for scheme in (light, dark)
+    ]
     style = f"<style>{rules[0]}@media (prefers-color-scheme:dark){{{rules[1]}}}</style>"
     return re.sub(r"(<svg[^>]*>)", lambda found: found[1] + style, svg, count=1)
 
@@ -192,7 +223,9 @@ def on_dark(colour: str) -> str:
 def _time_figure(configurations: Sequence[Configuration], panels: Sequence[tuple[str, str]]) -> Figure:
     """Time histories; `panels` are pairs of quantity and station."""
     same = len({quantity for quantity, _ in panels}) == 1
-    figure, axes = make_panels([each.name for each in configurations], [_station_name(station) for _, station in panels], share_y=same)
+    figure, axes = make_panels(
+        [each.name for each in configurations], [_station_name(station) for _, station in panels], share_y=same
+    )
     for panel, (quantity, station) in zip(axes, panels, strict=True):
         how = shown(QUANTITIES[quantity][0])
         for order, each in enumerate(configurations):
@@ -214,7 +247,9 @@ def _mark_time(panel: Axes, configurations: Sequence[Configuration], quantity: s
             for begin, end in spans(each.run.time, load <= CONTACT_LOST) if load is not None else ():
                 panel.axvspan(begin, end, color=colour(order), alpha=0.25, linewidth=1)
     elif quantity == "suspension_deflection":
-        stops = {tuple(travel[station]) for each in configurations if station in (travel := each.run.meta.get("travel", {}))}
+        stops = {
+            tuple(travel[station]) for each in configurations if station in (travel := each.run.meta.get("travel", {}))
+        }
         for order, (rebound, compression) in enumerate(sorted(stops)):
             stop_lines(panel, rebound * 1e3, compression * 1e3, horizontal=True, named=order == 0)
     low, high = panel.get_ylim()
@@ -222,7 +257,9 @@ def _mark_time(panel: Axes, configurations: Sequence[Configuration], quantity: s
         panel.axhline(0, color=MUTED, linewidth=0.6, zorder=1.5)
 
 
-def _characteristic_figure(sets: Mapping[str, Sequence[Characteristic]], titles: Sequence[str], draw_one: Callable[..., None]) -> Figure:
+def _characteristic_figure(
+    sets: Mapping[str, Sequence[Characteristic]], titles: Sequence[str], draw_one: Callable[..., None]
+) -> Figure:
     """One panel for each title, all sets in it."""
     figure, axes = make_panels(list(sets), titles)
     for panel, title in zip(axes, titles, strict=True):
@@ -245,8 +282,13 @@ def _spring_force(panel: Axes, order: int, each: Characteristic) -> None:
     margin = 0.15 * float(np.ptp(inside))
     low, high = panel.get_ylim() if panel.lines else (np.inf, -np.inf)
     draw_line(panel, order, each.deflection * 1e3, force)
-    panel.plot([0], [each.preload * 1e-3], "o", color=colour(order), markersize=5, markeredgecolor=PAPER, markeredgewidth=0.8)
-    panel.set_ylim(min(low, max(float(inside.min()) - margin, min(0.0, float(inside.min())))), max(high, float(inside.max()) + margin))
+    panel.plot(
+        [0], [each.preload * 1e-3], "o", color=colour(order), markersize=5, markeredgecolor=PAPER, markeredgewidth=0.8
+    )
+    panel.set_ylim(
+        min(low, max(float(inside.min()) - margin, min(0.0, float(inside.min())))),
+        max(high, float(inside.max()) + margin),
+    )
     panel.set_xlim(each.deflection[0] * 1e3, each.deflection[-1] * 1e3)
     label_axes(panel, "suspension deflection [mm]", "spring force at the wheel [kN]")
 
@@ -263,7 +305,15 @@ def _spring_frequency(panel: Axes, order: int, each: Characteristic) -> None:
     load, frequency = np.asarray(each.spring_force)[inside] * 1e-3, np.asarray(each.spring_frequency)[inside]
     draw_line(panel, order, load, frequency)
     at_preload = float(np.interp(each.preload * 1e-3, load, frequency))
-    panel.plot([each.preload * 1e-3], [at_preload], "o", color=colour(order), markersize=5, markeredgecolor=PAPER, markeredgewidth=0.8)
+    panel.plot(
+        [each.preload * 1e-3],
+        [at_preload],
+        "o",
+        color=colour(order),
+        markersize=5,
+        markeredgecolor=PAPER,
+        markeredgewidth=0.8,
+    )
     low, high = panel.dataLim.intervaly
     margin = max(0.07 * (high - low), 0.5 * (_LEAST_FREQUENCY_SPAN - (high - low)))
     panel.set_ylim(max(low - margin, 0), high + margin)
@@ -314,7 +364,9 @@ _COMPONENTS: dict[str, tuple[str, Callable[..., None]]] = {
 def _amplification_figure(configurations: Sequence[Configuration], quantity: str, stations: Sequence[str]) -> Figure:
     from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-    figure, axes = make_panels([each.name for each in configurations], [_station_name(each) for each in stations], share_y=True)
+    figure, axes = make_panels(
+        [each.name for each in configurations], [_station_name(each) for each in stations], share_y=True
+    )
     unit = QUANTITIES[quantity][0]
     shown_as = {"m": ("", 1.0), "m/s²": ("1/s²", 1.0), "N": ("kN/m", 1e-3), "rad": ("°/m", 180 / np.pi)}
     ratio_unit, factor = shown_as.get(unit, (f"({unit})/m", 1.0))

@@ -57,10 +57,16 @@ _PLOT_NOTES = {
     "seat_acceleration": "at the driver's seat, positive upwards",
     "body_acceleration": "positive upwards",
     "body_displacement": "positive upwards, from the design position",
-    "wheel_lift_handling": "up to the largest lateral acceleration; a ring marks a wheel that leaves the road, with the acceleration there",
+    "wheel_lift_handling": (
+        "up to the largest lateral acceleration; a ring marks a wheel that leaves the road, with the acceleration there"
+    ),
     "self_steering_handling": "positive into the turn; dotted: the angle of slip-free rolling on the same circle",
-    "wheel_travel_handling": "up to the largest lateral acceleration; positive in compression, from the design position",
-    "course_handling": "way of the centre of gravity; thin: the corners of the car between cones, its front wheels on slippery ground",
+    "wheel_travel_handling": (
+        "up to the largest lateral acceleration; positive in compression, from the design position"
+    ),
+    "course_handling": (
+        "way of the centre of gravity; thin: the corners of the car between cones, its front wheels on slippery ground"
+    ),
     "kinematics_handling": "of the left wheel, or the mean of both",
     "over_time_handling": "positive to the left, roll left side up, pitch nose down",
     **dict.fromkeys(
@@ -73,15 +79,22 @@ _PLOT_NOTES = {
     "damper_force_characteristic": "hydraulic force, without mount and friction",
     "component_spring_force_characteristic": "over its own travel between the stops; the dot is the design position",
     "component_damper_force_characteristic": "over its own speed, the wheel in the design position",
-    "tyre_longitudinal_force_characteristic": "at 0.5, 1, 1.5 and 2 times the wheel load in the design position; positive driven",
+    "tyre_longitudinal_force_characteristic": (
+        "at 0.5, 1, 1.5 and 2 times the wheel load in the design position; positive driven"
+    ),
     "tyre_lateral_force_characteristic": "at the same loads; a tyre that drifts to the left is pushed to the right",
     "tyre_aligning_moment_characteristic": "at the same loads; positive to the left",
-    "tyre_combined_slip_characteristic": "lines of one slip angle at the wheel load in the design position; dotted: the friction ellipse",
+    "tyre_combined_slip_characteristic": (
+        "lines of one slip angle at the wheel load in the design position; dotted: the friction ellipse"
+    ),
 }
 _GLOSSARY = (
     ("body motion", "vertical, positive upwards; zero is the design position"),
     ("suspension deflection", "positive in compression (bump), zero in the design position; negative is rebound"),
-    ("spring, damper, friction force", "effective at the wheel, positive when it pushes wheel and body apart or resists compression"),
+    (
+        "spring, damper, friction force",
+        "effective at the wheel, positive when it pushes wheel and body apart or resists compression",
+    ),
     ("wheel load", "vertical force of the road on the tyre; zero means that the wheel has left the road"),
     ("KO", "design position (Konstruktionslage), in which the spring carries its preload F₀"),
     ("dashed line", "in a plot: lies on the line of an earlier configuration"),
@@ -125,7 +138,9 @@ def write_report(
             description=comparison.description,
             colours=_colours(),
             verdict=list(_verdict(comparison)),
-            configurations=[{"name": each.name, "title": each.title, **each.facts} for each in comparison.configurations],
+            configurations=[
+                {"name": each.name, "title": each.title, **each.facts} for each in comparison.configurations
+            ],
             claims=comparison.claims,
             criteria=_criteria_rows(comparison),
             turning=turning_table(comparison),
@@ -144,7 +159,8 @@ def write_report(
 
 
 def write_summary(comparison: Comparison, path: str | Path, extra: Mapping[str, Any] | None = None) -> Path:
-    """Write ``{"title", "configurations", "claims", "passed", **extra}`` as strict JSON; what is not finite becomes null.
+    """Write ``{"title", "configurations", "claims", "passed", **extra}`` as strict JSON; what is not finite becomes
+    null.
 
     Raises:
         InputError: the place cannot be written.
@@ -152,14 +168,19 @@ def write_summary(comparison: Comparison, path: str | Path, extra: Mapping[str, 
     summary = {
         "title": comparison.title,
         "configurations": comparison.summary(),
-        "claims": [{"text": c.text, "expected": c.expected, "result": c.result, "holds": bool(c.holds)} for c in comparison.claims],
+        "claims": [
+            {"text": c.text, "expected": c.expected, "result": c.result, "holds": bool(c.holds)}
+            for c in comparison.claims
+        ],
         "passed": comparison.passed,
         **(extra or {}),
     }
     return write_text(path, json.dumps(_plain(summary), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
 
 
-def write_sheet(title: str, sets: Mapping[str, Sequence[Characteristic]], path: str | Path, facts: Mapping[str, Any] | None = None) -> Path:
+def write_sheet(
+    title: str, sets: Mapping[str, Sequence[Characteristic]], path: str | Path, facts: Mapping[str, Any] | None = None
+) -> Path:
     """Write the characteristic sheet of a car: plots and key values of all its sets, as one self-contained page.
 
     Args:
@@ -190,7 +211,11 @@ def _templates() -> Environment:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     return Environment(
-        loader=PackageLoader("evaluation"), autoescape=True, undefined=StrictUndefined, trim_blocks=True, keep_trailing_newline=True
+        loader=PackageLoader("evaluation"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        keep_trailing_newline=True,
     )
 
 
@@ -203,18 +228,40 @@ def _verdict(comparison: Comparison) -> Iterator[dict[str, str]]:
     claims = comparison.claims
     if claims:
         failed = sum(not each.holds for each in claims)
-        text = f"{len(claims) - failed} of {_count(len(claims), 'published statement')} hold{'s' if len(claims) - failed == 1 else ''}."
-        yield {"mark": "bad" if failed else "good", "word": "✗ Not reproduced." if failed else "✓ Reproduced.", "text": text}
+        text = (
+            f"{len(claims) - failed} of {_count(len(claims), 'published statement')} "
+            f"hold{'s' if len(claims) - failed == 1 else ''}."
+        )
+        yield {
+            "mark": "bad" if failed else "good",
+            "word": "✗ Not reproduced." if failed else "✓ Reproduced.",
+            "text": text,
+        }
     if comparison.criteria:
-        failing = {c.name: sum(not v["passed"] for v in comparison.verdicts(c).values()) for c in comparison.configurations}
+        failing = {
+            c.name: sum(not v["passed"] for v in comparison.verdicts(c).values()) for c in comparison.configurations
+        }
         said = "; ".join(
-            f"{name} fails {count} of {len(comparison.criteria)}" if count else f"{name} meets all" for name, count in failing.items()
+            f"{name} fails {count} of {len(comparison.criteria)}" if count else f"{name} meets all"
+            for name, count in failing.items()
         )
         passed = comparison.passed
-        text = f"Every configuration meets {_count(len(comparison.criteria), 'criterion', 'criteria')}." if passed else f"{said}."
-        yield {"mark": "good" if passed else "bad", "word": "✓ Criteria met." if passed else "✗ Criteria not met.", "text": text}
+        text = (
+            f"Every configuration meets {_count(len(comparison.criteria), 'criterion', 'criteria')}."
+            if passed
+            else f"{said}."
+        )
+        yield {
+            "mark": "good" if passed else "bad",
+            "word": "✓ Criteria met." if passed else "✗ Criteria not met.",
+            "text": text,
+        }
     if not claims and not comparison.criteria:
-        yield {"mark": "", "word": "No verdict.", "text": "The case sets no criteria; the numbers stand for themselves."}
+        yield {
+            "mark": "",
+            "word": "No verdict.",
+            "text": "The case sets no criteria; the numbers stand for themselves.",
+        }
 
 
 def _count(number: int, one: str, many: str = "") -> str:
@@ -258,7 +305,14 @@ def _criteria_rows(comparison: Comparison) -> list[dict[str, Any]]:
     for name, criterion in comparison.criteria.items():
         found = [each[name] for each in verdicts]
         cells = [_Cell(quantity_text(each["value"], each["unit"]), passed=each["passed"]) for each in found]
-        rows.append({"name": name, "label": _label(name), "band": _band(criterion, found[0]["unit"] if found else ""), "cells": cells})
+        rows.append(
+            {
+                "name": name,
+                "label": _label(name),
+                "band": _band(criterion, found[0]["unit"] if found else ""),
+                "cells": cells,
+            }
+        )
     return rows
 
 
@@ -277,7 +331,9 @@ def _mode_rows(comparison: Comparison) -> list[dict[str, Any]]:
     longest = max((len(modes) for modes in found), default=0)
     rows = []
     for i in range(longest):
-        cells = [f"{modes[i].frequency:.2f} Hz, D = {modes[i].damping:.2f}" if i < len(modes) else "–" for modes in found]
+        cells = [
+            f"{modes[i].frequency:.2f} Hz, D = {modes[i].damping:.2f}" if i < len(modes) else "–" for modes in found
+        ]
         largest = next(modes[i] for modes in found if i < len(modes))
         moving = [joint.replace("_", " ") for joint, amplitude in largest.shape.items() if abs(amplitude) > 0.3]
         rows.append({"label": ", ".join(moving), "cells": cells})
@@ -376,7 +432,10 @@ _SETTINGS: tuple[str, ...] = ("manoeuvre", "masses", "integration", "versions")
 def _run_settings(meta: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     manoeuvre = dict(meta.get("manoeuvre", {}))
     kind = manoeuvre.pop("kind", "")
-    yield "manoeuvre", f"{kind}, SI units: " + ", ".join(f"{key} {_plain_text(value)}" for key, value in manoeuvre.items())
+    yield (
+        "manoeuvre",
+        f"{kind}, SI units: " + ", ".join(f"{key} {_plain_text(value)}" for key, value in manoeuvre.items()),
+    )
     if meta.get("facts"):
         masses = {key.replace("_", " "): value for key, value in meta["facts"].items() if "mass" in key}
         yield "masses", ", ".join(f"{name} {_plain_text(value)} kg" for name, value in masses.items())
@@ -405,10 +464,17 @@ def _plain(value: Any) -> Any:
 
 def _key_rows(title: str, sets: Mapping[str, Sequence[Characteristic]]) -> list[dict[str, Any]]:
     """Key values of one axle, a column for each set."""
-    columns = [next((_key_values(each) for each in characteristics if each.title == title), {}) for characteristics in sets.values()]
+    columns = [
+        next((_key_values(each) for each in characteristics if each.title == title), {})
+        for characteristics in sets.values()
+    ]
     labels = dict.fromkeys(key for column in columns for key in column)
     return [
-        {"label": label, "unit": shown(unit).unit or "–", "cells": [number_text(column.get((label, unit)), unit) for column in columns]}
+        {
+            "label": label,
+            "unit": shown(unit).unit or "–",
+            "cells": [number_text(column.get((label, unit)), unit) for column in columns],
+        }
         for label, unit in labels
     ]
 

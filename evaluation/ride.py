@@ -90,7 +90,9 @@ def settling_time(run: Run) -> Number:
         return Number(None, "s", "nothing moves")
     if outside[-1] >= len(departure) - 2:
         return Number(None, "s", "not settled within the run")
-    return Number(float(run.time[outside[-1] + 1] - run.time[start]), "s", f"within 5 % of {1000 * float(departure.max()):.1f} mm")
+    return Number(
+        float(run.time[outside[-1] + 1] - run.time[start]), "s", f"within 5 % of {1000 * float(departure.max()):.1f} mm"
+    )
 
 
 def wheel_load_min(run: Run) -> Number:
@@ -110,7 +112,9 @@ def wheel_load_rms(run: Run) -> Number:
 
 def contact_loss_time(run: Run) -> Number:
     """Time for which a wheel is off the road, summed over the run [s]."""
-    off = {station: float(np.sum(load <= CONTACT_LOST)) * run.step for station, load in run.stations("wheel_load").items()}
+    off = {
+        station: float(np.sum(load <= CONTACT_LOST)) * run.step for station, load in run.stations("wheel_load").items()
+    }
     found = _choose(off, "s", max)
     return Number(0.0, "s", "the wheels keep contact") if found.value == 0.0 else found
 
@@ -139,12 +143,20 @@ def travel_rebound(run: Run) -> Number:
 
 def travel_left_compression(run: Run) -> Number:
     """Smallest distance left to the compression stop [m], negative when pressed into it."""
-    return _choose({s: run.meta["travel"][s][1] - float(x.max()) for s, x in run.stations("suspension_deflection").items()}, "m", min)
+    return _choose(
+        {s: run.meta["travel"][s][1] - float(x.max()) for s, x in run.stations("suspension_deflection").items()},
+        "m",
+        min,
+    )
 
 
 def travel_left_rebound(run: Run) -> Number:
     """Smallest distance left to the rebound stop [m], negative when pulled into it."""
-    return _choose({s: float(x.min()) - run.meta["travel"][s][0] for s, x in run.stations("suspension_deflection").items()}, "m", min)
+    return _choose(
+        {s: float(x.min()) - run.meta["travel"][s][0] for s, x in run.stations("suspension_deflection").items()},
+        "m",
+        min,
+    )
 
 
 def travel_left_compression_front(run: Run) -> Number:
@@ -195,7 +207,8 @@ def _travel_left(run: Run, axle: str, stop: int) -> Number:
 
 
 def _is_smooth(run: Run) -> bool:
-    """Whether a car has a road that does not shake it, or a rig holds it, so that its body's vertical motion has other causes."""
+    """Whether a car has a road that does not shake it, or a rig holds it, so that its body's vertical motion has other
+    causes."""
     if kind(run) in ("cross_slope", RIG):
         return True
     return drives(run) and not any(np.ptp(road) > 1e-9 for road in run.stations("road_height").values())

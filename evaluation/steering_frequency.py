@@ -1,8 +1,9 @@
-"""Response to the steering wheel over frequency: gain, phase and coherence, read from a sine sweep of the steering wheel.
+"""Response to the steering wheel over frequency: gain, phase and coherence, read from a sine sweep of the steering
+wheel.
 
-The sweep is read by deconvolution, as in `frequency`: of an exponential one, what remains is the first harmonic; the harmonics of a
-linear one stay in it as noise. The coherence is the share of a channel's power that follows from the steering wheel linearly, by
-Welch's method.
+The sweep is read by deconvolution, as in `frequency`: of an exponential one, what remains is the first harmonic; the
+harmonics of a linear one stay in it as noise. The coherence is the share of a channel's power that follows from the
+steering wheel linearly, by Welch's method.
 
 Source: ISO 7401:2011 and ISO 8726:1988; A. Farina, AES Convention 108 (2000), 5093; P. D. Welch, IEEE Trans. Audio
 Electroacoust. 15 (1967).
@@ -49,16 +50,19 @@ class Response:
 
     @property
     def phase(self) -> np.ndarray:
-        """Phase [rad], continuous over the frequency; at the lowest one between -pi/2 and pi/2 where the gain's sign allows it.
+        """Phase [rad], continuous over the frequency; at the lowest one between -pi/2 and pi/2 where the gain's sign
+        allows it.
 
-        The sign of the ratio at low frequency, where a channel is opposed to the steering wheel, is not counted as phase.
+        The sign of the ratio at low frequency, where a channel is opposed to the steering wheel, is not counted as
+        phase.
         """
         sign = -1.0 if self.ratio[0].real < 0 else 1.0
         return np.unwrap(np.angle(sign * self.ratio))
 
 
 def steering_response(run: Run, channel: str, points: int = 200) -> Response | None:
-    """Response of a channel to the steering wheel over frequency; None if the run is not a sweep of the steering wheel."""
+    """Response of a channel to the steering wheel over frequency; None if the run is not a sweep of the steering
+    wheel."""
     if not drives(run) or "excitation_frequency" not in run or channel not in run:
         return None
     steering = run["steering_wheel_angle"] - run["steering_wheel_angle"][0]
@@ -153,7 +157,9 @@ def _peak(run: Run, channel: str, unit: str) -> Number:
         return missing(unit, "needs a sine sweep of the steering wheel")
     at = int(np.argmax(found.gain))
     slow = quantity_text(float(found.gain[0]), unit)
-    return Number(float(found.gain[at]), unit, f"at {found.frequency[at]:.2f} Hz; {slow} at {found.frequency[0]:.2f} Hz")
+    return Number(
+        float(found.gain[at]), unit, f"at {found.frequency[at]:.2f} Hz; {slow} at {found.frequency[0]:.2f} Hz"
+    )
 
 
 def _peak_frequency(run: Run, channel: str) -> Number:
@@ -162,7 +168,11 @@ def _peak_frequency(run: Run, channel: str) -> Number:
         return missing("Hz", "needs a sine sweep of the steering wheel")
     at = int(np.argmax(found.gain))
     if at in (0, len(found.gain) - 1):
-        return Number(None, "Hz", f"no peak: largest at the {'lowest' if at == 0 else 'highest'} frequency, {found.frequency[at]:.2f} Hz")
+        return Number(
+            None,
+            "Hz",
+            f"no peak: largest at the {'lowest' if at == 0 else 'highest'} frequency, {found.frequency[at]:.2f} Hz",
+        )
     return Number(float(found.frequency[at]), "Hz")
 
 

@@ -1,7 +1,7 @@
 """Numbers of the response to a step of the steering wheel: response times, overshoot, steady-state gains, TB factor.
 
-Time counts from the instant at which the steering wheel has made half its way. The steady state is the mean over the last fifth of
-the time for which the angle is held. Gains are per steering wheel angle.
+Time counts from the instant at which the steering wheel has made half its way. The steady state is the mean over the
+last fifth of the time for which the angle is held. Gains are per steering wheel angle.
 
 Source: ISO 7401:2011, step input; M. Mitschke, H. Wallentowitz, Dynamik der Kraftfahrzeuge.
 """
@@ -56,7 +56,11 @@ def step_response(run: Run, channel: str) -> Step | None:
         return None
     given_up = first(turned[held:] < 0.999)
     end = len(turned) if given_up is None else held + given_up
-    begin = run.time[half - 1] + (0.5 - turned[half - 1]) / (turned[half] - turned[half - 1]) * run.step if half else run.time[half]
+    begin = (
+        run.time[half - 1] + (0.5 - turned[half - 1]) / (turned[half] - turned[half - 1]) * run.step
+        if half
+        else run.time[half]
+    )
     start = min(float(parameter(run, "start", 0.0)), float(begin))
     before = float(np.interp(start, run.time, run[channel]))
     values = run[channel] - before
@@ -116,7 +120,11 @@ def tb_factor(run: Run) -> Number:
     time, slip = yaw_rate_peak_response_time(run), step_response(run, "side_slip_angle")
     if not time.applies or slip is None:
         return missing("rad s", "needs a step of the steering wheel")
-    return Number(None, "rad s", time.note) if time.value is None else Number(time.value * abs(slip.steady), "rad s", slip.note)
+    return (
+        Number(None, "rad s", time.note)
+        if time.value is None
+        else Number(time.value * abs(slip.steady), "rad s", slip.note)
+    )
 
 
 def yaw_rate_gain(run: Run) -> Number:
@@ -137,7 +145,9 @@ def roll_angle_gain(run: Run) -> Number:
 def side_slip_angle_steady(run: Run) -> Number:
     """Steady side slip angle of the centre of gravity after a step [rad], negative: the car points into a left turn."""
     step = step_response(run, "side_slip_angle")
-    return missing("rad", "needs a step of the steering wheel") if step is None else Number(step.steady, "rad", step.note)
+    return (
+        missing("rad", "needs a step of the steering wheel") if step is None else Number(step.steady, "rad", step.note)
+    )
 
 
 def _response_time(run: Run, channel: str) -> Number:
@@ -175,4 +185,8 @@ def _overshoot(run: Run, channel: str) -> Number:
 
 def _gain(run: Run, channel: str, unit: str) -> Number:
     step = step_response(run, channel)
-    return missing(unit, "needs a step of the steering wheel") if step is None else Number(step.steady / step.angle, unit, step.note)
+    return (
+        missing(unit, "needs a step of the steering wheel")
+        if step is None
+        else Number(step.steady / step.angle, unit, step.note)
+    )

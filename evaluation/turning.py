@@ -45,7 +45,8 @@ class TurningTable:
 def turning_table(comparison: Comparison) -> TurningTable | None:
     """Roll, inner wheel loads, travel left and which wheel lifts, by configuration.
 
-    None unless every configuration drives freely and one of them turns with at least 4 m/s², without braking straight on.
+    None unless every configuration drives freely and one of them turns with at least 4 m/s², without braking straight
+    on.
     """
     runs = [each.run for each in comparison.configurations]
     if not runs or not all(drives(run) for run in runs) or kind(runs[0]) in ("braking", "split_mu", "acceleration"):
@@ -66,4 +67,6 @@ def lifting(run: Run) -> str:
     found = wheel_lift.lifts(run)
     if not found:
         return "none"
-    return "; ".join(f"{each.station} at {each.time:.2f} s, {each.acceleration:.1f} m/s², for {each.lasts:.2f} s" for each in found)
+    return "; ".join(
+        f"{each.station} at {each.time:.2f} s, {each.acceleration:.1f} m/s², for {each.lasts:.2f} s" for each in found
+    )

@@ -1,4 +1,5 @@
-"""Curves of a tyre with slip: forces and aligning moment over each slip at several loads, and both forces in combined slip."""
+"""Curves of a tyre with slip: forces and aligning moment over each slip at several loads, and both forces in combined
+slip."""
 
 from __future__ import annotations
 
@@ -36,7 +37,8 @@ class TyreCurves:
         angles: (m,) slip angles [rad] of its lines.
         combined_kappa: (q,) longitudinal slips along each line [1].
         combined_longitudinal, combined_lateral: (m, q) [N].
-        friction: largest of each force alone at the nominal load [N], or None where the curves still rise at their ends.
+        friction: largest of each force alone at the nominal load [N], or None where the curves still rise at their
+            ends.
     """
 
     name: str
@@ -105,7 +107,8 @@ def tyre_curves(tyre: Any, nominal_load: float, loads: Sequence[float] | None = 
 
 
 def _friction(sample: Any, load: float) -> tuple[float, float] | None:
-    """Largest longitudinal and lateral force [N] of either alone, the mean of both directions; None where there is none."""
+    """Largest longitudinal and lateral force [N] of either alone, the mean of both directions; None where there is
+    none."""
     slip = np.sinh(np.linspace(-5.0, 5.0, 201)) / math.sinh(5.0)
     along, across = sample(slip, np.zeros(1), load)[:, 0], sample(np.zeros(1), 1.2 * slip, load)[:, 1]
     if any(abs(force[end]) >= abs(force).max() for force in (along, across) for end in (0, -1)):

@@ -31,13 +31,17 @@ def tyre_plots(sets: Mapping[str, Sequence[Characteristic]]) -> dict[str, str]:
     Args:
         sets: characteristics by configuration; those without a tyre are left out.
     """
-    tyres = {name: {each.title: each.tyre for each in characteristics if each.tyre} for name, characteristics in sets.items()}
+    tyres = {
+        name: {each.title: each.tyre for each in characteristics if each.tyre} for name, characteristics in sets.items()
+    }
     titles = list(dict.fromkeys(itertools.chain(*tyres.values())))
     return {name: draw_svg(_figure, tyres, titles, draw_one) for name, draw_one in _PLOTS.items()} if titles else {}
 
 
 def _figure(
-    tyres: Mapping[str, Mapping[str, TyreCurves]], titles: Sequence[str], draw_one: Callable[[Axes, int, TyreCurves], None]
+    tyres: Mapping[str, Mapping[str, TyreCurves]],
+    titles: Sequence[str],
+    draw_one: Callable[[Axes, int, TyreCurves], None],
 ) -> Figure:
     """One panel for each title, every different tyre in it."""
     figure, axes = make_panels(list(tyres), titles, size=_SQUARE if draw_one is _combined else PANEL)

@@ -58,7 +58,11 @@ def _draws(backend: str) -> bool:
     """Whether a process with this backend draws a picture that is not black."""
     try:
         done = subprocess.run(
-            [sys.executable, "-c", _PROBE], env=gl_environment(backend), capture_output=True, timeout=_PROBE_LIMIT, check=False
+            [sys.executable, "-c", _PROBE],
+            env=gl_environment(backend),
+            capture_output=True,
+            timeout=_PROBE_LIMIT,
+            check=False,
         )
     except (OSError, subprocess.TimeoutExpired):
         return False
@@ -107,12 +111,39 @@ class Encoder:
             "-color_trc",
             "bt709",
         ]
-        coding = ["-an", "-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+        coding = [
+            "-an",
+            "-c:v",
+            "libx264",
+            "-preset",
+            "veryfast",
+            "-crf",
+            "20",
+            "-pix_fmt",
+            "yuv420p",
+            "-movflags",
+            "+faststart",
+        ]
         same = ["-fflags", "+bitexact", "-flags:v", "+bitexact"]
         texts = [part for key, value in (tags or {}).items() for part in ("-metadata", f"{key}={value}")]
-        command = [program, "-y", "-loglevel", "error", *source, *colour, *coding, *same, *texts, "-f", "mp4", str(path)]
+        command = [
+            program,
+            "-y",
+            "-loglevel",
+            "error",
+            *source,
+            *colour,
+            *coding,
+            *same,
+            *texts,
+            "-f",
+            "mp4",
+            str(path),
+        ]
         self._messages = tempfile.TemporaryFile()  # noqa: SIM115 -- closed in __exit__
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._messages)
+        self._process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._messages
+        )
 
     def write(self, frame: bytes) -> None:
         """Append a frame: height x width x 3 bytes."""
@@ -126,7 +157,9 @@ class Encoder:
     def __enter__(self) -> Encoder:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         assert self._process.stdin is not None
         with contextlib.suppress(OSError):
             self._process.stdin.close()

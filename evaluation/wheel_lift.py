@@ -1,4 +1,5 @@
-"""Numbers of wheels that lift in a turn: which one, when, at which lateral acceleration, for how long, and how near the others come."""
+"""Numbers of wheels that lift in a turn: which one, when, at which lateral acceleration, for how long, and how near the
+others come."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """From the wheel to the parts and back: which spring and which damper make the characteristics of a car?
 
-Run it with ``python examples/component_level.py [SHEET.html]``. The quarter car of chapter 3 gets motion ratios; they tell
-what its spring and its damper themselves have to do. Then a helical spring of two pitches and a damper of bleed, orifice and
-blow-off valves are laid out for that, brought back to the wheel and driven over the bump.
+Run it with ``python examples/component_level.py [SHEET.html]``. The quarter car of chapter 3 gets motion ratios; they
+tell what its spring and its damper themselves have to do. Then a helical spring of two pitches and a damper of bleed,
+orifice and blow-off valves are laid out for that, brought back to the wheel and driven over the bump.
 """
 
 from __future__ import annotations
@@ -71,7 +71,10 @@ def main(sheet=""):
     asked, (spring, damper) = spring_at_component(axle.spring, axle.spring_ratio), parts(axle)
     for name, each in (("asked", asked), ("laid out", spring)):
         rates = each.rate_at([each.stops.rebound / 2, 0.0, each.stops.compression / 2]) / 1000
-        print(f"spring {name:8}: {float(each.force_at(0.0)):5.0f} N at rest, {rates[0]:4.1f} {rates[1]:4.1f} {rates[2]:4.1f} N/mm")
+        print(
+            f"spring {name:8}: {float(each.force_at(0.0)):5.0f} N at rest, {rates[0]:4.1f} {rates[1]:4.1f} "
+            f"{rates[2]:4.1f} N/mm"
+        )
 
     at_wheel = {
         "spring": spring_at_wheel(spring, axle.spring_ratio),
@@ -83,7 +86,10 @@ def main(sheet=""):
         acceleration, travel = run["body_acceleration"], run["suspension_deflection"]
         print(f"car {name:8}: acceleration {acceleration.max():5.2f} m/s², travel {1000 * travel.max():5.1f} mm")
     if sheet:
-        sets = {name: [characteristic("rear axle", each.axle("rear"))] for name, each in (("asked", car), ("laid out", made))}
+        sets = {
+            name: [characteristic("rear axle", each.axle("rear"))]
+            for name, each in (("asked", car), ("laid out", made))
+        }
         print(write_sheet("Spring and damper of chapter 3", sets, sheet))
 
 

@@ -86,7 +86,9 @@ def main():
     for name, overrides in (("steel", None), ("gas", ON_GAS)):
         vehicle = load_vehicle("chapter3", "linear", overrides)
         run = simulate(build(vehicle, "quarter_2dof"), Bump())
-        acceleration, travel, load = (run[channel] for channel in ("body_acceleration", "suspension_deflection", "wheel_load"))
+        acceleration, travel, load = (
+            run[channel] for channel in ("body_acceleration", "suspension_deflection", "wheel_load")
+        )
         print(
             f"{name:5}: acceleration {acceleration.max():6.2f} and {acceleration.min():6.2f} m/s², "
             f"travel {1000 * travel.max():5.1f} and {1000 * travel.min():5.1f} mm, least wheel load {load.min():4.0f} N"

@@ -15,8 +15,8 @@ from susp_mj.units import PositiveSpeed, PositiveTime
 class Braking(Driving):
     """Brake pedal pressed along half a cosine and held, the steering wheel straight, until the car stands.
 
-    For wheel load distribution, pitch, deceleration and stopping distance. There is no anti-lock system: a pedal pressed too far
-    locks wheels.
+    For wheel load distribution, pitch, deceleration and stopping distance. There is no anti-lock system: a pedal
+    pressed too far locks wheels.
 
     Attributes:
         pedal: position of the brake pedal, 0 to 1.
@@ -40,7 +40,8 @@ class Braking(Driving):
 
 
 def braked(quantity: str, time: np.ndarray, start: float, rise_time: float, pedal: float) -> ValueAndRate | None:
-    """Brake pedal pressed at `start` [s] within `rise_time` [s] while the speed controller lets go; None for other quantities."""
+    """Brake pedal pressed at `start` [s] within `rise_time` [s] while the speed controller lets go; None for other
+    quantities."""
     if quantity == "brake_pedal":
         return risen(time, start, rise_time, pedal)
     return fallen(time, start, rise_time, 1.0) if quantity == "speed_control" else None

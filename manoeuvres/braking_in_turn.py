@@ -45,7 +45,9 @@ class BrakingInTurn(Driving):
     def _in_order(self) -> BrakingInTurn:
         if self.brake_start < self.start + self.steer_time:
             turned = self.start + self.steer_time
-            raise wrong(f"{self.brake_start:g} s is not allowed; the wheel is turned only after {turned:g} s", "brake_start")
+            raise wrong(
+                f"{self.brake_start:g} s is not allowed; the wheel is turned only after {turned:g} s", "brake_start"
+            )
         if self.brake_start >= self.duration:
             raise wrong(f"{self.brake_start:g} s is not allowed; the run ends after {self.duration:g} s", "brake_start")
         return self

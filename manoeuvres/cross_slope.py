@@ -46,7 +46,10 @@ class CrossSlope(Driving):
         lean, _ = cosine_ramp((x - begin) / self.transition, self.slope)
         y = np.array([-_HALF_WIDTH, _HALF_WIDTH])
         return Road(
-            x, y, np.outer(lean, y), features=({"kind": "cross_slope", "slope": self.slope, "x": [begin, begin + self.transition]},)
+            x,
+            y,
+            np.outer(lean, y),
+            features=({"kind": "cross_slope", "slope": self.slope, "x": [begin, begin + self.transition]},),
         )
 
     def driver(self) -> Driver | None:

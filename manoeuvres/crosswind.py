@@ -19,8 +19,8 @@ from susp_mj.units import PositiveLength, PositiveSpeed, PositiveTime, Quantity
 class Crosswind(Driving):
     """A zone of wind across the road, with cosine flanks, through which the car drives with the steering wheel held.
 
-    The whole car feels the wind of the place where its front axle is: the flanks are longer than what a zone does to a car
-    as it dives into it.
+    The whole car feels the wind of the place where its front axle is: the flanks are longer than what a zone does to a
+    car as it dives into it.
 
     Attributes:
         wind: speed of the wind [m/s], positive to the left: it blows from the right.

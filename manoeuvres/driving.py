@@ -24,7 +24,8 @@ class Driving(Manoeuvre):
     Attributes:
         speed: held by the speed controller [m/s].
         start: when the driver begins [s].
-        grip: friction of the whole road, as a factor on what the tyre was measured with: 1 a dry test surface, about 0.7 wet.
+        grip: friction of the whole road, as a factor on what the tyre was measured with: 1 a dry test surface, about
+            0.7 wet.
     """
 
     needs: ClassVar[tuple[str, ...]] = ("steering_wheel_angle",)

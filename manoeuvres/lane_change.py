@@ -48,13 +48,14 @@ class Lane:
 class LaneChange(Driving):
     """A driver takes the car at constant speed through the three lanes of ISO 3888-1, to the left and back.
 
-    Lane widths are ``1.1 b + 0.25 m``, ``1.2 b + 0.25 m`` and ``1.3 b + 0.25 m`` for a car of width b; the first begins at
-    ``speed x start``, its middle on y = 0, and the right limits of the first and third lane are in line. The driver's path joins
-    the lanes' middles along minimum-jerk curves, which begin and end `cut` inside the lanes.
+    Lane widths are ``1.1 b + 0.25 m``, ``1.2 b + 0.25 m`` and ``1.3 b + 0.25 m`` for a car of width b; the first begins
+    at ``speed x start``, its middle on y = 0, and the right limits of the first and third lane are in line. The
+    driver's path joins the lanes' middles along minimum-jerk curves, which begin and end `cut` inside the lanes.
 
     Attributes:
         vehicle_width: b [m], without mirrors.
-        front_overhang, rear_overhang: of the body beyond its axles [m]; with the width, they tell where its corners are.
+        front_overhang, rear_overhang: of the body beyond its axles [m]; with the width, they tell where its corners
+            are.
         cut: how far inside the lanes the path leaves and reaches their middle [m].
         preview_time, lag, understeer: of the driver, see `susp_mj.driver.Driver`.
         speed: [m/s].

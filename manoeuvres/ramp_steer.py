@@ -13,7 +13,8 @@ from susp_mj.units import PositiveTime, Quantity
 
 
 class RampSteer(Driving):
-    """Steering wheel turned at a constant rate up to `limit` and held there, the speed held: ever tighter, up to the tyres' limit.
+    """Steering wheel turned at a constant rate up to `limit` and held there, the speed held: ever tighter, up to the
+    tyres' limit.
 
     For the largest lateral acceleration, self-steering, roll, the wheel travel that is left, and wheels that lift.
 

@@ -69,14 +69,20 @@ class RandomRoad(Manoeuvre):
     def road(self) -> Road:
         distance = self.speed * self.duration
         if distance > _LONGEST_SURFACE:
-            raise InputError(f"is too long; a car that drives freely has {_LONGEST_SURFACE / 1e3:g} km", key="duration", source="manoeuvre")
+            raise InputError(
+                f"is too long; a car that drives freely has {_LONGEST_SURFACE / 1e3:g} km",
+                key="duration",
+                source="manoeuvre",
+            )
         tracks, half = self._road_tracks(self.duration), self.track / 2
         feature = {"kind": "random", "road_class": self.road_class, "x": [0.0, distance]}
         return sampled(lambda x, y: tracks.at(x, y)[0], 0.0, distance + 10.0, (-half, half), (feature,))
 
     def _road_tracks(self, duration: float) -> RandomTracks:
         if self.speed * duration > 1e6 or self.longest > 1e5:
-            raise InputError("is too long; allowed are 1000 km of road and waves of 100 km", key="speed", source="manoeuvre")
+            raise InputError(
+                "is too long; allowed are 1000 km of road and waves of 100 km", key="speed", source="manoeuvre"
+            )
         length = self.speed * duration + self.longest
         return _tracks(self.road_class, length, self.longest, self.shortest, self.lead_in, self.seed)
 

@@ -39,7 +39,9 @@ class SineSteer(Driving):
             return super().drive(place, time)
         w, since = 2 * np.pi * self.frequency, time - self.start
         inside = (since > 0) & (since < self.periods / self.frequency)
-        return np.where(inside, self.amplitude * np.sin(w * since), 0.0), np.where(inside, self.amplitude * w * np.cos(w * since), 0.0)
+        return np.where(inside, self.amplitude * np.sin(w * since), 0.0), np.where(
+            inside, self.amplitude * w * np.cos(w * since), 0.0
+        )
 
 
 if __name__ == "__main__":

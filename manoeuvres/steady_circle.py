@@ -19,14 +19,15 @@ from susp_mj.units import PositiveSpeed, PositiveTime, Quantity
 class SteadyCircle(Driving):
     """A driver keeps the car on a circle while the speed rises so slowly that every instant is a steady state.
 
-    The target speed makes the lateral acceleration ``v²/R`` rise at a constant rate after `start`, so the steering wheel angle
-    over it is the self-steering characteristic.
+    The target speed makes the lateral acceleration ``v²/R`` rise at a constant rate after `start`, so the steering
+    wheel angle over it is the self-steering characteristic.
 
     Attributes:
         radius: R of the circle [m], positive to the left; it begins at x = 0.
         speed: at the beginning [m/s].
         increase: rate of the lateral acceleration [m/s³].
-        limit: lateral acceleration at which the target stops rising [m/s²]; above what the car can do it drives to its limit.
+        limit: lateral acceleration at which the target stops rising [m/s²]; above what the car can do it drives to its
+            limit.
         understeer: K of the driver, see `susp_mj.driver.Driver`: with that of the car he stays closest to the circle.
         start: [s].
 
@@ -49,7 +50,10 @@ class SteadyCircle(Driving):
         if abs(self.radius) < 5.0:
             raise wrong(f"{self.radius} m is not allowed; a car needs at least 5 m to either side", "radius")
         if self.speed**2 / abs(self.radius) > self.limit:
-            raise wrong(f"{self.speed:.4g} m/s is not allowed; on this radius it is above the limit of {self.limit:.4g} m/s²", "speed")
+            raise wrong(
+                f"{self.speed:.4g} m/s is not allowed; on this radius it is above the limit of {self.limit:.4g} m/s²",
+                "speed",
+            )
         return self
 
     def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:

@@ -25,7 +25,10 @@ def check_length(length: float, key: str) -> None:
         InputError: with the lengths that are allowed.
     """
     if not SHORTEST <= length <= LONGEST:
-        text = f"{length:g} m is not allowed for a car that drives freely; it must be from {SHORTEST:g} m to {LONGEST / 1e3:g} km"
+        text = (
+            f"{length:g} m is not allowed for a car that drives freely; it must be from {SHORTEST:g} m to "
+            f"{LONGEST / 1e3:g} km"
+        )
         raise InputError(text, key=key, source="manoeuvre")
 
 

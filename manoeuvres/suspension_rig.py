@@ -28,11 +28,12 @@ TESTS: dict[str, tuple[str, str]] = {
 
 
 class SuspensionRig(Manoeuvre):
-    """The body is held and one input swept slowly to both sides and back: ``A sin(2 pi s)``, s rising softly from 0 to 1.
+    """The body is held and one input swept slowly to both sides and back: ``A sin(2 pi s)``, s rising softly from 0 to
+    1.
 
     ``bump`` moves the body down and up over standing wheels, ``roll`` rolls it; ``steer`` turns the steering wheel;
-    ``lateral_force``, ``longitudinal_force`` and ``aligning_moment`` act on all contact patches in wheel axes, to the left,
-    forwards and about the upward vertical, on a ground without friction.
+    ``lateral_force``, ``longitudinal_force`` and ``aligning_moment`` act on all contact patches in wheel axes, to the
+    left, forwards and about the upward vertical, on a ground without friction.
 
     Attributes:
         test: which input is swept.
@@ -65,7 +66,9 @@ class SuspensionRig(Manoeuvre):
     @model_validator(mode="after")
     def _can_be_opposed(self) -> SuspensionRig:
         if self.opposed and self.test in ("bump", "roll", "steer"):
-            raise wrong(f"true is not allowed for test '{self.test}'; only forces and moments can be opposed", "opposed")
+            raise wrong(
+                f"true is not allowed for test '{self.test}'; only forces and moments can be opposed", "opposed"
+            )
         return self
 
     @property
@@ -85,7 +88,9 @@ class SuspensionRig(Manoeuvre):
     def check(self, places: Sequence[Input], model: str) -> None:
         super().check(places, model)
         if self.swept not in {place.quantity for place in places}:
-            raise InputError(f"model {model} has no input '{self.swept}', which test '{self.test}' drives", key="manoeuvre.test")
+            raise InputError(
+                f"model {model} has no input '{self.swept}', which test '{self.test}' drives", key="manoeuvre.test"
+            )
 
 
 if __name__ == "__main__":

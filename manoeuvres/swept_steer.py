@@ -16,7 +16,8 @@ from susp_mj.units import PositiveTime, Time
 
 
 class SweptSteer(Driving):
-    """Sine of the steering wheel of constant amplitude and rising frequency, faded in over its first period and out over its last.
+    """Sine of the steering wheel of constant amplitude and rising frequency, faded in over its first period and out
+    over its last.
 
     For gain and phase of yaw velocity, lateral acceleration, roll and side slip over frequency. Phase and frequency are
     kept with the run. Only the exponential sweep keeps the harmonics of a non-linear car apart.
@@ -25,12 +26,13 @@ class SweptSteer(Driving):
         amplitude: of the steering wheel [rad].
         start_frequency, end_frequency: [Hz].
         scale: ``exponential`` or ``linear`` rise of the frequency over the run.
-        settle: how long the steering wheel is straight at the end, so that the car's response dies away within the run [s].
+        settle: how long the steering wheel is straight at the end, so that the car's response dies away within the run
+            [s].
         speed: [m/s].
         start: [s].
 
-    Source: thesis appendix 9, model-manoeuvre 5: 72 km/h, 30°, 0.2 to 2.8 Hz; ISO 7401:2011. How the frequency rises, and
-    the length, are reconstructed.
+    Source: thesis appendix 9, model-manoeuvre 5: 72 km/h, 30°, 0.2 to 2.8 Hz; ISO 7401:2011. How the frequency rises,
+    and the length, are reconstructed.
     """
 
     kind: Literal["swept_steer"] = "swept_steer"
@@ -45,10 +47,15 @@ class SweptSteer(Driving):
     @model_validator(mode="after")
     def _rising(self) -> SweptSteer:
         if self.end_frequency <= self.start_frequency:
-            text = f"{self.end_frequency} Hz is not allowed; it must lie above start_frequency {self.start_frequency} Hz"
+            text = (
+                f"{self.end_frequency} Hz is not allowed; it must lie above start_frequency {self.start_frequency} Hz"
+            )
             raise wrong(text, "end_frequency")
         if self.start + self.settle > self.duration / 2:
-            text = f"{self.settle:g} s is not allowed; with the start it must leave half of the run, {self.duration / 2:g} s, to the sweep"
+            text = (
+                f"{self.settle:g} s is not allowed; with the start it must leave half of the run, "
+                f"{self.duration / 2:g} s, to the sweep"
+            )
             raise wrong(text, "settle")
         return self
 
@@ -71,7 +78,9 @@ class SweptSteer(Driving):
 
     @property
     def _sweep(self) -> Sweep:
-        return Sweep(self.start_frequency, self.end_frequency, self.duration - self.start - self.settle, self.scale == "linear")
+        return Sweep(
+            self.start_frequency, self.end_frequency, self.duration - self.start - self.settle, self.scale == "linear"
+        )
 
 
 if __name__ == "__main__":

@@ -48,7 +48,8 @@ class VerticalSweep(Manoeuvre):
     def _rising(self) -> VerticalSweep:
         if self.end_frequency <= self.start_frequency:
             raise wrong(
-                f"{self.end_frequency} Hz is not allowed; it must lie above start_frequency {self.start_frequency} Hz", "end_frequency"
+                f"{self.end_frequency} Hz is not allowed; it must lie above start_frequency {self.start_frequency} Hz",
+                "end_frequency",
             )
         return self
 
@@ -61,7 +62,8 @@ class VerticalSweep(Manoeuvre):
         return sign * height, np.where(time >= delay, sign * rate, 0.0)
 
     def weight(self, place: Input, frequency: float) -> complex:
-        """Complex amplitude of a wheel's road at a frequency [Hz], relative to a wheel that is neither opposed nor delayed."""
+        """Complex amplitude of a wheel's road at a frequency [Hz], relative to a wheel that is neither opposed nor
+        delayed."""
         delay = 0.0 if self.speed is None else -place.x / self.speed
         return (-1.0 if self._opposed(place) else 1.0) * complex(np.exp(-2j * np.pi * frequency * delay))
 

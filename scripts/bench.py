@@ -60,7 +60,9 @@ def real_time() -> Result:
     """
     plant, manoeuvre = whole_car()
     taken = quickest(lambda: simulate(plant, manoeuvre, step=1e-3), 4 * REPEATS)
-    return Result("OM7 bump 3 s at 1 ms, recorded: simulated / real time", manoeuvre.duration / taken, 60.0, "x", more=True)
+    return Result(
+        "OM7 bump 3 s at 1 ms, recorded: simulated / real time", manoeuvre.duration / taken, 60.0, "x", more=True
+    )
 
 
 def cars() -> list[Result]:
@@ -119,7 +121,14 @@ def against_scipy() -> list[Result]:
 
     def theirs(rates: Callable[[float, np.ndarray], Sequence[float] | np.ndarray], method: str, step: float) -> float:
         found = solve_ivp(
-            lambda t, s: rates(t, s)[:5], (0, 3.0), at_rest, method=method, t_eval=time_grid, rtol=1e-7, atol=1e-9, max_step=step
+            lambda t, s: rates(t, s)[:5],
+            (0, 3.0),
+            at_rest,
+            method=method,
+            t_eval=time_grid,
+            rtol=1e-7,
+            atol=1e-9,
+            max_step=step,
         )
         recorded = np.array([rates(t, s)[5:] for t, s in zip(time_grid, found.y.T, strict=True)])
         return float(recorded[:, 0].max())
@@ -136,7 +145,13 @@ def against_scipy() -> list[Result]:
         times = ratio(partial(theirs, rates(manoeuvre), method, step), lambda: simulate(plant, manoeuvre), repeats)
         style = rates.__name__.removesuffix("_rates")
         results.append(
-            Result(f"OM5 bump 3 s, recorded: scipy {method}, {style}, steps <= {1000 * step:g} ms / susp_mj", times, limit, "x", more=True)
+            Result(
+                f"OM5 bump 3 s, recorded: scipy {method}, {style}, steps <= {1000 * step:g} ms / susp_mj",
+                times,
+                limit,
+                "x",
+                more=True,
+            )
         )
     return results
 

@@ -1,4 +1,5 @@
-"""Speed of the car that drives freely: real-time factor, cost of its callbacks, and the CommonRoad multi-body model beside it."""
+"""Speed of the car that drives freely: real-time factor, cost of its callbacks, and the CommonRoad multi-body model
+beside it."""
 
 from __future__ import annotations
 
@@ -29,8 +30,9 @@ NEWER_TYRE = {
     for key, value in (("kind", "magic_formula_61"), ("file", "mf61_205_60R15.tir"))
 }
 SHARED = StepSteer(duration=DURATION, angle=np.radians(40), rate=np.radians(300))
-"""The step steer that both programs drive. CommonRoad's wheels turn at 0.4 rad/s at most (0.36 here). Its tyres may pull on the road:
-after the 85° of our own figures the inner front wheel's load becomes negative and the solution grows without bounds within 3 s."""
+"""The step steer that both programs drive. CommonRoad's wheels turn at 0.4 rad/s at most (0.36 here). Its tyres may
+pull on the road: after the 85° of our own figures the inner front wheel's load becomes negative and the solution grows
+without bounds within 3 s."""
 
 State = Sequence[float] | np.ndarray
 Rates = Callable[[State, float], list[float]]
@@ -44,7 +46,12 @@ def handling() -> list[Result]:
     text = "3D car, step steer 9 s at 1 ms"
     return [
         Result(f"{text}, recorded: simulated / real time", _real_time(saloon, 4 * REPEATS), 40.0, "x", more=True),
-        Result("3D car, step steer 1 s at 1 ms: compiled callbacks / the same MJCF without them", _callbacks(saloon), 1.6, "x"),
+        Result(
+            "3D car, step steer 1 s at 1 ms: compiled callbacks / the same MJCF without them",
+            _callbacks(saloon),
+            1.6,
+            "x",
+        ),
         Result(f"{text}, bmw_320i: simulated / real time", _real_time(small, REPEATS), None, "x", more=True),
         Result(f"{text}, bmw_320i, tyre 6.1: simulated / real time", _real_time(newer, REPEATS), None, "x", more=True),
         Result("3D car, step steer 1 s at 1 ms, bmw_320i, tyre 6.1: callbacks / without", _callbacks(newer), None, "x"),
@@ -67,17 +74,17 @@ def _callbacks(plant: Plant) -> float:
 def against_commonroad() -> list[Result | str]:
     """The same step steer by the multi-body model of M. Althoff and G. Würsching (BSD licence), vehicle 2, in Python.
 
-    It is integrated as its users do, by odeint with its defaults as in its README, and with fixed steps. Odeint takes long steps
-    once the car is on its circle, and what it records are states alone; accelerations, which our records have, take one more
-    evaluation per record.
+    It is integrated as its users do, by odeint with its defaults as in its README, and with fixed steps. Odeint takes
+    long steps once the car is on its circle, and what it records are states alone; accelerations, which our records
+    have, take one more evaluation per record.
 
-    The two are one car by their figures, yet CommonRoad's turns in more sharply at equal angles of the road wheels: its yaw rate is
-    15 % higher at 2 m/s², 20 % at 4 m/s². At 2 m/s² 7 % of that are the tyre's shifts by camber, which change sign with it there and
-    belong to the side of the car here; 4 % the influence of load, which its tyre table lacks, so that load transfer costs no
-    cornering stiffness; 2 % the aligning moment, which it does not have. Without all three the yaw rates differ by 1 %.
-    Ours rolls by 10 % more per lateral acceleration: what accelerates the wheels sideways acts at their centres and is borne by the
-    body's springs (7 %), where its rigid axles bear it themselves; and the turning wheels' gyroscopic moment (3 %) is not in its
-    equations.
+    The two are one car by their figures, yet CommonRoad's turns in more sharply at equal angles of the road wheels: its
+    yaw rate is 15 % higher at 2 m/s², 20 % at 4 m/s². At 2 m/s² 7 % of that are the tyre's shifts by camber, which
+    change sign with it there and belong to the side of the car here; 4 % the influence of load, which its tyre table
+    lacks, so that load transfer costs no cornering stiffness; 2 % the aligning moment, which it does not have. Without
+    all three the yaw rates differ by 1 %. Ours rolls by 10 % more per lateral acceleration: what accelerates the wheels
+    sideways acts at their centres and is borne by the body's springs (7 %), where its rigid axles bear it themselves;
+    and the turning wheels' gyroscopic moment (3 %) is not in its equations.
     """
     if importlib.util.find_spec("vehiclemodels") is None:
         return ["no comparison with CommonRoad: pip install commonroad-vehicle-models, or the extra 'bench'"]
@@ -95,7 +102,9 @@ def against_commonroad() -> list[Result | str]:
         return simulate(plant, SHARED, step=STEP)
 
     def lsoda() -> object:
-        return solve_ivp(lambda t, x: rates(x, t), (0.0, DURATION), start, method="LSODA", t_eval=time, max_step=20 * STEP)
+        return solve_ivp(
+            lambda t, x: rates(x, t), (0.0, DURATION), start, method="LSODA", t_eval=time, max_step=20 * STEP
+        )
 
     def with_rates() -> object:
         return [rates(x, t) for x, t in zip(_states(rates, start, time), time, strict=True)]
@@ -103,22 +112,38 @@ def against_commonroad() -> list[Result | str]:
     text = "CommonRoad MB, step steer 9 s at 1 ms"
     end = theirs[-1]
     return [
-        Result(f"{text}: odeint, states only / susp_mj", ratio(lambda: _states(rates, start, time), ours, 5), None, "x", more=True),
+        Result(
+            f"{text}: odeint, states only / susp_mj",
+            ratio(lambda: _states(rates, start, time), ours, 5),
+            None,
+            "x",
+            more=True,
+        ),
         Result(f"{text}: LSODA, steps <= 20 ms / susp_mj", ratio(lsoda, ours, 5), None, "x", more=True),
         Result(f"{text}: odeint, and accelerations / susp_mj", ratio(with_rates, ours, 3), None, "x", more=True),
-        Result(f"{text}: RK4 in Python / susp_mj", ratio(lambda: _stepped(rates, start, len(time) - 1), ours, 3), None, "x", more=True),
-        f"  yaw rate {end[5]:.4f} (susp_mj {settled['yaw_rate']:.4f}) rad/s, lateral acceleration {end[5] * end[3]:.2f} "
-        f"({settled['lateral_acceleration']:.2f}) m/s², roll {math.degrees(-end[6]):.2f} ({math.degrees(settled['roll_angle']):.2f})°",
+        Result(
+            f"{text}: RK4 in Python / susp_mj",
+            ratio(lambda: _stepped(rates, start, len(time) - 1), ours, 3),
+            None,
+            "x",
+            more=True,
+        ),
+        f"  yaw rate {end[5]:.4f} (susp_mj {settled['yaw_rate']:.4f}) rad/s, lateral acceleration "
+        f"{end[5] * end[3]:.2f} "
+        f"({settled['lateral_acceleration']:.2f}) m/s², roll {math.degrees(-end[6]):.2f} "
+        f"({math.degrees(settled['roll_angle']):.2f})°",
     ]
 
 
 def _wheel_angle(run: Run) -> float:
-    """Angle of the road wheels on the circle [rad], mean of both: CommonRoad steers the wheels, ours are turned back by their tyres."""
+    """Angle of the road wheels on the circle [rad], mean of both: CommonRoad steers the wheels, ours are turned back by
+    their tyres."""
     return float(np.mean([run[f"{corner}_steer_angle"][-500:].mean() for corner in ("fl", "fr")]))
 
 
 def _commonroad(angle: float) -> tuple[Rates, list[float]]:
-    """Right-hand side of CommonRoad's model, in odeint's order, and its initial state; half a cosine to `angle`, speed held."""
+    """Right-hand side of CommonRoad's model, in odeint's order, and its initial state; half a cosine to `angle`, speed
+    held."""
     from vehiclemodels.init_mb import init_mb
     from vehiclemodels.parameters_vehicle2 import parameters_vehicle2
     from vehiclemodels.vehicle_dynamics_mb import vehicle_dynamics_mb
@@ -142,7 +167,8 @@ def _states(rates: Rates, start: list[float], time: np.ndarray) -> np.ndarray:
 
 
 def _stepped(rates: Rates, start: Sequence[float], steps: int) -> Sequence[float]:
-    """Classical Runge-Kutta on lists, which its scalar code takes three times as fast as arrays; returns the last state."""
+    """Classical Runge-Kutta on lists, which its scalar code takes three times as fast as arrays; returns the last
+    state."""
     x, h = start, STEP
     for step in range(steps):
         t = step * h

@@ -1,4 +1,5 @@
-"""What the measurements of ``make bench`` are made of: a figure beside its limit, times, ratios, the cost of the callbacks."""
+"""What the measurements of ``make bench`` are made of: a figure beside its limit, times, ratios, the cost of the
+callbacks."""
 
 from __future__ import annotations
 
@@ -38,7 +39,10 @@ class Result:
         figure = f"{self.text:<78} {self.value:8.2f} {self.unit:<3}"
         if self.limit is None:
             return figure
-        return f"{figure} (limit {'>=' if self.more else '<='} {self.limit:g} {self.unit}) {'met' if self.met else 'MISSED'}"
+        return (
+            f"{figure} (limit {'>=' if self.more else '<='} {self.limit:g} {self.unit}) "
+            f"{'met' if self.met else 'MISSED'}"
+        )
 
 
 def seconds(action: Callable[[], object]) -> float:
@@ -49,7 +53,8 @@ def seconds(action: Callable[[], object]) -> float:
 
 
 def quickest(action: Callable[[], object], repeats: int) -> float:
-    """Shortest wall time of several calls [s]: of an absolute time the one that the rest of the machine disturbed least."""
+    """Shortest wall time of several calls [s]: of an absolute time the one that the rest of the machine disturbed
+    least."""
     action()
     return min(seconds(action) for _ in range(repeats))
 
@@ -62,9 +67,11 @@ def ratio(first: Callable[[], object], second: Callable[[], object], repeats: in
 
 
 def callback_cost(plant: Plant, start: mujoco.MjData, blocks: Blocks, steps: int, repeats: int) -> float:
-    """Time of `steps` steps with the compiled callbacks over that of the same MJCF without; median of pairs taken in turn.
+    """Time of `steps` steps with the compiled callbacks over that of the same MJCF without; median of pairs taken in
+    turn.
 
-    MuJoCo's own clock, which runs without our callbacks and stops with them, runs on both sides: the ratio is that of the callbacks alone.
+    MuJoCo's own clock, which runs without our callbacks and stops with them, runs on both sides: the ratio is that of
+    the callbacks alone.
     """
 
     def stepped(prepare: Callable[[], None]) -> float:

@@ -15,18 +15,25 @@ def check_block(spec: mujoco.MjSpec, source: str) -> None:
     if CAR_NUMERIC not in _names(spec):
         return
     block, wheels = _numbers(spec)
-    whole = len(block) > len(HEAD) + 4 * len(WHEEL) and block[0] == CAR_MARK and block[HEAD.index("length")] == len(block)
+    whole = (
+        len(block) > len(HEAD) + 4 * len(WHEEL) and block[0] == CAR_MARK and block[HEAD.index("length")] == len(block)
+    )
     if _names(spec)[0] != CAR_NUMERIC or not whole:
         raise InputError("must be the first custom numeric, and whole", key=CAR_NUMERIC, source=source)
     sizes = {mujoco.mjtJoint.mjJNT_FREE: 6, mujoco.mjtJoint.mjJNT_BALL: 3}
     freedoms = sum(sizes.get(joint.type, 1) for joint in spec.joints)
     if block[HEAD.index("freedoms")] != freedoms:
-        text = f"is written for {block[HEAD.index('freedoms')]:g} freedoms, the model has {freedoms}; add no joints, build the car anew"
+        text = (
+            f"is written for {block[HEAD.index('freedoms')]:g} freedoms, the model has {freedoms}; add no joints, "
+            "build the car anew"
+        )
         raise InputError(text, key=CAR_NUMERIC, source=source)
     for name in ("travel_freedom", "steer_freedom", "spin_freedom", "tyre", "steering"):
         number = wheels[:, WHEEL.index(name)]
         if not ((number >= -1) & (number < (freedoms if name.endswith("freedom") else len(spec.actuators)))).all():
-            raise InputError(f"'{name}' of a wheel lies outside the model; keep the order", key=CAR_NUMERIC, source=source)
+            raise InputError(
+                f"'{name}' of a wheel lies outside the model; keep the order", key=CAR_NUMERIC, source=source
+            )
     _check_numbers(block, wheels, len(spec.actuators), source)
 
 
@@ -46,7 +53,11 @@ def check_places(spec: mujoco.MjSpec, model: mujoco.MjModel, source: str) -> Non
             if index >= 0 and kind == "joint":
                 index = int(model.jnt_dofadr[index])
             if index < 0 or wheel[WHEEL.index(number)] != index:
-                raise InputError(f"{kind} '{name}' is not where the car's numbers say; keep the order", key=CAR_NUMERIC, source=source)
+                raise InputError(
+                    f"{kind} '{name}' is not where the car's numbers say; keep the order",
+                    key=CAR_NUMERIC,
+                    source=source,
+                )
 
 
 def _names(spec: mujoco.MjSpec) -> list[str]:
@@ -63,22 +74,48 @@ def _numbers(spec: mujoco.MjSpec) -> tuple[np.ndarray, np.ndarray]:
 def _check_numbers(block: np.ndarray, wheels: np.ndarray, actuators: int, source: str) -> None:
     """Refuse numbers with which the compiled car would read outside its block, which lies in memory that others use."""
     head = dict(zip(HEAD, block[: len(HEAD)], strict=True))
-    controls = [name for name in (*CONTROLS, *RIG_CONTROLS) if not (-1 <= head[name] < actuators and head[name] == int(head[name]))]
+    controls = [
+        name
+        for name in (*CONTROLS, *RIG_CONTROLS)
+        if not (-1 <= head[name] < actuators and head[name] == int(head[name]))
+    ]
     if controls:
-        text = f"{head[controls[0]]:g} is not allowed for '{controls[0]}'; the model has {actuators} actuators, 0 to {actuators - 1}"
+        text = (
+            f"{head[controls[0]]:g} is not allowed for '{controls[0]}'; the model has {actuators} actuators, 0 to "
+            f"{actuators - 1}"
+        )
         raise InputError(text, key=CAR_NUMERIC, source=source)
     if not 1 <= head["gears"] <= MOST_GEARS:
-        raise InputError(f"{head['gears']:g} gears are not allowed; 1 to {MOST_GEARS} are", key=CAR_NUMERIC, source=source)
-    if not (wheels[:, WHEEL.index("radius")] > 0).all() or not head["engine_inertia"] > 0 or not head["steering_ratio"] > 0:
-        raise InputError("radius of a wheel, engine_inertia and steering_ratio must be greater than 0", key=CAR_NUMERIC, source=source)
+        raise InputError(
+            f"{head['gears']:g} gears are not allowed; 1 to {MOST_GEARS} are", key=CAR_NUMERIC, source=source
+        )
+    if (
+        not (wheels[:, WHEEL.index("radius")] > 0).all()
+        or not head["engine_inertia"] > 0
+        or not head["steering_ratio"] > 0
+    ):
+        raise InputError(
+            "radius of a wheel, engine_inertia and steering_ratio must be greater than 0",
+            key=CAR_NUMERIC,
+            source=source,
+        )
     places = [(name, head[name]) for name in CURVES if name in HEAD]
-    places += [(name, wheel[WHEEL.index(name)]) for wheel in wheels for name in (*CURVES, "angles", "tyre_parameters") if name in WHEEL]
+    places += [
+        (name, wheel[WHEEL.index(name)])
+        for wheel in wheels
+        for name in (*CURVES, "angles", "tyre_parameters")
+        if name in WHEEL
+    ]
     begins = sorted({place for _, place in places if place != 0} | {float(len(block))})
     parameters: set[float] = set()
     for name, place in places:
         if place == 0 and name in OPTIONAL:
             continue
-        room = begins[begins.index(place) + 1] - place if len(HEAD) + wheels.size <= place < len(block) and place == int(place) else 0
+        room = (
+            begins[begins.index(place) + 1] - place
+            if len(HEAD) + wheels.size <= place < len(block) and place == int(place)
+            else 0
+        )
         at = int(place)
         if name == "tyre_parameters":
             parameters.add(room)
@@ -89,5 +126,7 @@ def _check_numbers(block: np.ndarray, wheels: np.ndarray, actuators: int, source
             fits = room > 3 and room == 3 + 2 * CURVES[name] * block[at + 2]
         if not fits:
             raise InputError(
-                f"'{name}' is not where the car's numbers say; leave places and lengths as they are", key=CAR_NUMERIC, source=source
+                f"'{name}' is not where the car's numbers say; leave places and lengths as they are",
+                key=CAR_NUMERIC,
+                source=source,
             )

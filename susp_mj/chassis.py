@@ -7,16 +7,19 @@ from collections.abc import Mapping
 import numpy as np
 
 
-def free_motion(qpos: np.ndarray, qvel: np.ndarray, qacc: np.ndarray, facts: Mapping[str, float]) -> dict[str, np.ndarray]:
+def free_motion(
+    qpos: np.ndarray, qvel: np.ndarray, qacc: np.ndarray, facts: Mapping[str, float]
+) -> dict[str, np.ndarray]:
     """Channels of the body: position, angles, velocities and accelerations, by quantity.
 
-    Angles are yaw, pitch, roll of the sequence z, y, x; longitudinal and lateral refer to the horizontal axes that turn with
-    the yaw angle; side slip is ``atan2(v_y, v_x)`` there, 0 below 0.1 m/s.
+    Angles are yaw, pitch, roll of the sequence z, y, x; longitudinal and lateral refer to the horizontal axes that turn
+    with the yaw angle; side slip is ``atan2(v_y, v_x)`` there, 0 below 0.1 m/s.
 
     Args:
         qpos: (rows, >= 7) of a model whose first joint is the body's free joint: position, quaternion.
         qvel, qacc: (rows, >= 6): linear in the inertial frame, angular in the body's.
-        facts: with ``cg_height`` (height of the body's centre of gravity in the design position), ``cg_x`` and ``wheelbase`` [m].
+        facts: with ``cg_height`` (height of the body's centre of gravity in the design position), ``cg_x`` and
+            ``wheelbase`` [m].
     """
     w, x, y, z = qpos[:, 3:7].T
     yaw = np.unwrap(np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))

@@ -24,7 +24,9 @@ class Description(BaseModel):
             for key in data:
                 if key not in cls.model_fields:
                     raise PydanticCustomError(
-                        "unknown_key", "unknown key; {choices}", {"key": str(key), "choices": choices(cls.model_fields, key)}
+                        "unknown_key",
+                        "unknown key; {choices}",
+                        {"key": str(key), "choices": choices(cls.model_fields, key)},
                     )
         return data
 

@@ -13,7 +13,8 @@ class Path:
 
     Attributes:
         x, y: (n,) evenly spaced x [m] and the path's y there [m]; straight on beyond the ends.
-        radius: of a circle [m] that begins at x = 0, tangent to the x axis, positive to the left; then x and y are not used.
+        radius: of a circle [m] that begins at x = 0, tangent to the x axis, positive to the left; then x and y are not
+            used.
     """
 
     x: np.ndarray = field(default_factory=lambda: np.array([0.0, 1.0]))

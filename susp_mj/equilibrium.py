@@ -43,7 +43,8 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
     position = solve(residual, data.qpos.copy())
     if not np.max(np.abs(residual(position))) < 1e-9:
         raise SimulationError(
-            f"{plant.meaning.source}: load '{plant.meaning.load}' has no static equilibrium in model {plant.meaning.model}; "
+            f"{plant.meaning.source}: load '{plant.meaning.load}' has no static equilibrium in model "
+            f"{plant.meaning.model}; "
             "check preloads and sprung mass"
         )
     _check_travel(plant, data)
@@ -52,7 +53,8 @@ def static_equilibrium(plant: Plant, block: np.ndarray | None = None) -> mujoco.
 
 
 def solve(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray, enough: float = 0.0) -> np.ndarray:
-    """Root by Newton's method with finite differences and halved steps, until no residual exceeds `enough` or rounding stops the progress.
+    """Root by Newton's method with finite differences and halved steps, until no residual exceeds `enough` or rounding
+    stops the progress.
 
     Springs are monotone but have kinks, at the design position and at the stops, where library solvers that trust their
     model of the function stall; the static load of an axle lies exactly on one whenever the payload leaves it alone.
@@ -76,12 +78,15 @@ def solve(residual: Callable[[np.ndarray], np.ndarray], position: np.ndarray, en
 
 
 def rest_states(model: mujoco.MjModel, data: mujoco.MjData, actuators: np.ndarray) -> None:
-    """Forces at the current position with the inner states of these actuators at rest, i.e. equal to their element's deflection."""
+    """Forces at the current position with the inner states of these actuators at rest, i.e. equal to their element's
+    deflection."""
     mujoco.mj_fwdPosition(model, data)  # lengths; the inputs in ctrl stay what they are at the first instant
     length = data.actuator_length + data.ctrl
     for actuator in actuators:
         _, _, partner, weight, other, _ = model.actuator_user[actuator][:ACTUATOR_HEADER]
-        deflection = length[actuator] if partner == 0 else weight * length[actuator] + other * length[actuator + int(partner)]
+        deflection = (
+            length[actuator] if partner == 0 else weight * length[actuator] + other * length[actuator + int(partner)]
+        )
         data.act[model.actuator_actadr[actuator]] = deflection
     mujoco.mj_forward(model, data)
 
@@ -99,11 +104,14 @@ def _check_travel(plant: Plant, data: mujoco.MjData) -> None:
     for output, values in plant.outputs(columns):
         if output.quantity == "wheel_load" and not values[0] > 0:
             raise InputError(
-                f"the car tips over at rest: wheel {output.station or 'load'} would have to be pulled down by {-values[0]:.0f} N",
+                f"the car tips over at rest: wheel {output.station or 'load'} would have to be pulled down by "
+                f"{-values[0]:.0f} N",
                 key=f"loads.{plant.meaning.load}",
                 source=plant.meaning.source,
             )
-    check_deflections(plant, {o.station: float(v[0]) for o, v in plant.outputs(columns) if o.quantity == "suspension_deflection"})
+    check_deflections(
+        plant, {o.station: float(v[0]) for o, v in plant.outputs(columns) if o.quantity == "suspension_deflection"}
+    )
 
 
 def check_deflections(plant: Plant, deflections: Mapping[str, float]) -> None:
@@ -116,7 +124,8 @@ def check_deflections(plant: Plant, deflections: Mapping[str, float]) -> None:
         deflection = deflections[travel.station]
         if not travel.rebound < deflection < travel.compression:
             raise InputError(
-                f"cannot carry load '{plant.meaning.load}': its equilibrium lies at {1000 * deflection:.1f} mm, outside the travel "
+                f"cannot carry load '{plant.meaning.load}': its equilibrium lies at {1000 * deflection:.1f} mm, "
+                "outside the travel "
                 f"from {1000 * travel.rebound:.0f} to {1000 * travel.compression:.0f} mm; change preload, rate or load",
                 key=f"{travel.key}.spring",
                 source=plant.meaning.source,

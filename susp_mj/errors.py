@@ -39,7 +39,8 @@ class CallbackError(SuspMjError):
 
 
 def choices(options: Iterable[object], wrong: object = None) -> str:
-    """List the options for an error text, and the nearest one first: ``did you mean 'damper'? choose damper, spring``."""
+    """List the options for an error text, and the nearest one first: ``did you mean 'damper'? choose damper,
+    spring``."""
     names = [str(option) for option in options]
     near = difflib.get_close_matches(str(wrong), names, n=1) if wrong is not None else []
     hint = f"did you mean '{near[0]}'? " if near else ""

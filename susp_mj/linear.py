@@ -1,4 +1,5 @@
-"""Linearisation of a plant at its static equilibrium: natural frequencies, damping ratios, mode shapes, transfer functions."""
+"""Linearisation of a plant at its static equilibrium: natural frequencies, damping ratios, mode shapes, transfer
+functions."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from .names import channel_name
 from .plant import Plant
 
 _STEP = 1e-7
-"""Difference in position [m, rad] and velocity [m/s, rad/s]; forces are smooth at rest, so this is far from any kink."""
+"""Difference in position [m, rad] and velocity [m/s, rad/s]; forces are smooth at rest, so this is far from any
+kink."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,11 @@ def linearise(plant: Plant) -> Linear:
         InputError, SimulationError: as `static_equilibrium`.
     """
     if plant.contacts:
-        raise InputError(f"model {plant.meaning.model} has no modes; choose an oscillation model", key="model", source=plant.meaning.source)
+        raise InputError(
+            f"model {plant.meaning.model} has no modes; choose an oscillation model",
+            key="model",
+            source=plant.meaning.source,
+        )
     model = plant.model
     rest = static_equilibrium(plant)
     entries = plant.entries()

@@ -82,4 +82,6 @@ class Manoeuvre(Description, ABC):
         offered = {place.quantity for place in places}
         for quantity in self.needs:
             if quantity not in offered:
-                raise InputError(f"model {model} has no input '{quantity}', which manoeuvre {self.kind} drives", key="model")
+                raise InputError(
+                    f"model {model} has no input '{quantity}', which manoeuvre {self.kind} drives", key="model"
+                )

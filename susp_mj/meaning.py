@@ -33,8 +33,8 @@ class Output:
     Attributes:
         quantity, station: as in `Channel`.
         terms: (source, name, factor); the source is ``qpos``, ``qvel``, ``qacc`` (name: a joint), ``actuator_force``
-            (an actuator), ``input`` or ``input_rate`` (the channel name of an input), ``signal`` (what the compiled car writes, a name in
-            `elements.car.SIGNALS`).
+            (an actuator), ``input`` or ``input_rate`` (the channel name of an input), ``signal`` (what the compiled car
+            writes, a name in `elements.car.SIGNALS`).
     """
 
     quantity: str

@@ -57,7 +57,9 @@ class Plant:
             spec = mujoco.MjSpec.from_file(str(path))
             _check_partners(spec, str(path))
             signals = len(SIGNALS) if any(numeric.name == CAR_NUMERIC for numeric in spec.numerics) else 0
-            spec.nuserdata = max(spec.nuserdata, USERDATA_HEADER + len(spec.actuators) + signals)  # actuators may have been added by hand
+            spec.nuserdata = max(
+                spec.nuserdata, USERDATA_HEADER + len(spec.actuators) + signals
+            )  # actuators may have been added by hand
             check_block(spec, str(path))  # first: compiling runs the car once
             model = spec.compile()
             check_places(spec, model, str(path))
@@ -74,14 +76,22 @@ class Plant:
             raise InputError(
                 f"is not a model that susp-mj built: its custom text '{META}' is broken: {error!r}", source=str(path)
             ) from None
-        if "wheelbase" in plant.meaning.facts and any(model.actuator(i).name == "fl_tyre" for i in range(model.nu)) and not signals:
-            raise InputError(f"is required; it holds the numbers of model {plant.meaning.model}", key=CAR_NUMERIC, source=str(path))
+        if (
+            "wheelbase" in plant.meaning.facts
+            and any(model.actuator(i).name == "fl_tyre" for i in range(model.nu))
+            and not signals
+        ):
+            raise InputError(
+                f"is required; it holds the numbers of model {plant.meaning.model}", key=CAR_NUMERIC, source=str(path)
+            )
         return plant
 
     @cached_property
     def laws(self) -> tuple[int, ...]:
         """Numbers of the force laws that the model uses."""
-        return tuple(sorted({int(user[1]) for user in self.model.actuator_user if len(user) > 1 and user[0] == ACTUATOR_MARK}))
+        return tuple(
+            sorted({int(user[1]) for user in self.model.actuator_user if len(user) > 1 and user[0] == ACTUATOR_MARK})
+        )
 
     @cached_property
     def contacts(self) -> tuple[int, ...]:
@@ -140,7 +150,8 @@ def compiled(spec: mujoco.MjSpec, source: str) -> mujoco.MjModel:
 
 
 def _check_partners(spec: mujoco.MjSpec, source: str) -> None:
-    """Refuse a file in which an element's other half is not where its parameters say, before anything is computed with it."""
+    """Refuse a file in which an element's other half is not where its parameters say, before anything is computed with
+    it."""
     users = [list(actuator.userdata) for actuator in spec.actuators]
     for i, user in enumerate(users):
         if len(user) < ACTUATOR_HEADER or user[0] != ACTUATOR_MARK:

@@ -1,4 +1,5 @@
-"""Roads: height along the distance travelled, one function a shape, and as a surface with friction for a car that drives freely."""
+"""Roads: height along the distance travelled, one function a shape, and as a surface with friction for a car that
+drives freely."""
 
 from __future__ import annotations
 
@@ -34,7 +35,13 @@ def cosine_ramp(progress: np.ndarray, height: float) -> HeightAndSlope:
 
 ROAD_CLASSES: dict[str, float] = {letter: 16e-6 * 4**i for i, letter in enumerate("ABCDEFGH")}
 """ISO 8608 class -> geometric mean of the roughness Gd(n0) [m³] at n0 = 0.1 cycles/m."""
-_COHERENCE: dict[str, tuple[float, float]] = {"A": (8.5, 3.5), "B": (5.3, 2.2), "C": (3.0, 1.3), "D": (1.6, 0.8), "E": (0.8, 0.5)}
+_COHERENCE: dict[str, tuple[float, float]] = {
+    "A": (8.5, 3.5),
+    "B": (5.3, 2.2),
+    "C": (3.0, 1.3),
+    "D": (1.6, 0.8),
+    "E": (0.8, 0.5),
+}
 _REFERENCE = 0.1  # cycles/m
 _SPACING = 0.02  # m; the cubic spline through the samples follows a wavelength of 0.1 m within 0.3 % of its amplitude
 
@@ -42,9 +49,9 @@ _SPACING = 0.02  # m; the cubic spline through the samples follows a wavelength 
 class RandomTracks:
     """Tracks of a random road: ``Gd(n) = Gd(n0) (n/n0)^-2`` between two wavelengths, random phases.
 
-    A track at lateral position y is ``common sqrt(c) + own sqrt(1 - c)``, so that the cross spectrum of left and right is c
-    times their own: near 1 for waves much longer than their distance b = 2 |y|, near 0 for much shorter ones. c² is the
-    coherence ``(1 + (Omega b / Omega_p)²)^-p``, Omega = 2 pi n; classes F to H use the values of E.
+    A track at lateral position y is ``common sqrt(c) + own sqrt(1 - c)``, so that the cross spectrum of left and right
+    is c times their own: near 1 for waves much longer than their distance b = 2 |y|, near 0 for much shorter ones. c²
+    is the coherence ``(1 + (Omega b / Omega_p)²)^-p``, Omega = 2 pi n; classes F to H use the values of E.
 
     Args:
         road_class: ISO 8608 class, A to H.
@@ -53,11 +60,13 @@ class RandomTracks:
         lead_in: the road fades in over this distance [m].
         seed: of the random numbers.
 
-    Source: ISO 8608:2016; the coherence's form and values after D. Ammon, Veh. Syst. Dyn. 20 (1992), as Project Chrono has
-    them for its random terrain; that they are a squared coherence is our reading.
+    Source: ISO 8608:2016; the coherence's form and values after D. Ammon, Veh. Syst. Dyn. 20 (1992), as Project Chrono
+    has them for its random terrain; that they are a squared coherence is our reading.
     """
 
-    def __init__(self, road_class: str, length: float, longest: float, shortest: float, lead_in: float, seed: int) -> None:
+    def __init__(
+        self, road_class: str, length: float, longest: float, shortest: float, lead_in: float, seed: int
+    ) -> None:
         count = int(2 ** np.ceil(np.log2(length / _SPACING)))
         self._period = count * _SPACING
         number = np.fft.rfftfreq(count, _SPACING)
@@ -122,8 +131,8 @@ def _flat() -> np.ndarray:
 class Road:
     """Surface over which a car drives freely: a height field on a regular grid, friction patches, a cross slope.
 
-    Between the grid points the height is a cubic (Catmull-Rom) over x and linear over y; outside it stays as at the edge,
-    level in x. Where patches overlap the last one counts.
+    Between the grid points the height is a cubic (Catmull-Rom) over x and linear over y; outside it stays as at the
+    edge, level in x. Where patches overlap the last one counts.
 
     Attributes:
         x: (n,) evenly spaced places along the road [m], n >= 2.
@@ -146,7 +155,16 @@ class Road:
     def block(self) -> np.ndarray:
         """The road as the compiled car reads it; see `compiled.surroundings`."""
         spacing_y = self.y[1] - self.y[0] if len(self.y) > 1 else 1.0
-        head = [self.x[0], self.x[1] - self.x[0], len(self.x), self.y[0], spacing_y, len(self.y), self.cross_slope, self.friction]
+        head = [
+            self.x[0],
+            self.x[1] - self.x[0],
+            len(self.x),
+            self.y[0],
+            spacing_y,
+            len(self.y),
+            self.cross_slope,
+            self.friction,
+        ]
         head.append(len(self.patches))
         patches = [value for p in self.patches for value in (p.x_from, p.x_to, p.y_from, p.y_to, p.friction)]
         return np.concatenate([np.array(head, float), np.array(patches, float), np.asarray(self.height, float).ravel()])

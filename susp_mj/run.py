@@ -136,7 +136,9 @@ class Run:
             import xarray
         except ImportError:
             raise InputError("to_xarray() needs the package xarray: pip install xarray") from None
-        attributes = {name: {"units": c.unit, "long_name": c.description, "frame": c.frame} for name, c in self.channels.items()}
+        attributes = {
+            name: {"units": c.unit, "long_name": c.description, "frame": c.frame} for name, c in self.channels.items()
+        }
         return xarray.Dataset(
             {name: ("time", channel.values, attributes[name]) for name, channel in self.channels.items()},
             coords={"time": ("time", self.time, {"units": "s"})},

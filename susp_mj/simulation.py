@@ -28,8 +28,9 @@ STEP = 1e-3
 FINEST = 20
 """Into how many steps a millisecond is cut at most without being asked."""
 COARSER = 2.0
-"""A car on tyres with slip is integrated with steps so many times its shortest time constant: that belongs to a damper in its mount, whose
-lag the mass of a wheel hides (1 ms and 0.125 ms differ by less than 0.05 % of the range in every channel looked at)."""
+"""A car on tyres with slip is integrated with steps so many times its shortest time constant: that belongs to a damper
+in its mount, whose lag the mass of a wheel hides (1 ms and 0.125 ms differ by less than 0.05 % of the range in every
+channel looked at)."""
 MOST_STEPS = 10_000_000
 """Longest run, in steps; its records fit into the memory of a workstation."""
 STABLE = 2.785
@@ -79,21 +80,25 @@ def simulate(
         step, record_every = STEP / parts, parts if record_every is None else record_every
     record_every = 1 if record_every is None else record_every
     if not (np.isfinite(step) and step > 0) or record_every < 1:
-        raise InputError(f"step {step} s and record_every {record_every} are not allowed; both must be positive", source="simulate")
+        raise InputError(
+            f"step {step} s and record_every {record_every} are not allowed; both must be positive", source="simulate"
+        )
     manoeuvre.check(meaning.inputs, meaning.model)
     _check_step(plant, step)
     install(plant.laws, plant.contacts)
 
     if manoeuvre.duration / step > MOST_STEPS:
         raise InputError(
-            f"{manoeuvre.duration:g} s is too long for a step of {1000 * step:g} ms; allowed are {MOST_STEPS:.0e} steps, "
+            f"{manoeuvre.duration:g} s is too long for a step of {1000 * step:g} ms; allowed are {MOST_STEPS:.0e} "
+            "steps, "
             f"{MOST_STEPS * step:g} s",
             key="duration",
             source="manoeuvre",
         )
     if record_every * step > manoeuvre.duration:
         raise InputError(
-            f"{record_every} is not allowed; a run of {manoeuvre.duration:g} s has {int(manoeuvre.duration / step)} steps",
+            f"{record_every} is not allowed; a run of {manoeuvre.duration:g} s has {int(manoeuvre.duration / step)} "
+            "steps",
             key="record_every",
             source="simulate",
         )
@@ -130,7 +135,16 @@ def simulate(
         if progress is not None:
             progress(done / steps)
     time = np.arange(rows) * (step * record_every)
-    run = _as_run(plant, manoeuvre, time, records[:rows], samples[:: 2 * record_every][:rows], step, road, steered=driver is not None)
+    run = _as_run(
+        plant,
+        manoeuvre,
+        time,
+        records[:rows],
+        samples[:: 2 * record_every][:rows],
+        step,
+        road,
+        steered=driver is not None,
+    )
     if not sound or any(warning.number for warning in data.warning):
         raise SimulationError(_diverged(run, step))
     return run
@@ -145,11 +159,17 @@ def _at_start(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray, step: flo
     block = input_block(at_rest, step / 2, plant.entries())
     if not plant.contacts:
         return static_equilibrium(plant, block)
-    return trimmed(plant, dataclasses.replace(blocks, inputs=block), manoeuvre.driving_speed() if plant.meaning.driving else 0.0)
+    return trimmed(
+        plant, dataclasses.replace(blocks, inputs=block), manoeuvre.driving_speed() if plant.meaning.driving else 0.0
+    )
 
 
 def simulate_many(
-    jobs: Sequence[tuple[Plant, Manoeuvre]], *, step: float | None = None, record_every: int | None = None, workers: int | None = None
+    jobs: Sequence[tuple[Plant, Manoeuvre]],
+    *,
+    step: float | None = None,
+    record_every: int | None = None,
+    workers: int | None = None,
 ) -> list[Run]:
     """Run several simulations side by side on threads; the results are those of `simulate`, in the order given.
 
@@ -193,14 +213,17 @@ def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, road: Ro
 
 
 def _check_steering(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray) -> None:
-    """Refuse a steering wheel that is turned further than it goes: the car would hold it at its limit and the run be another one."""
+    """Refuse a steering wheel that is turned further than it goes: the car would hold it at its limit and the run be
+    another one."""
     limit = float(plant.model.numeric_data[HEAD.index("steering_limit")])
     for i, place in enumerate(plant.meaning.inputs):
         largest = float(np.abs(samples[:, i, 0]).max())
         if place.quantity == "steering_wheel_angle" and largest > limit * (1 + 1e-9):
             raise InputError(
-                f"{manoeuvre.kind} turns the steering wheel by {largest:.4g} rad ({np.degrees(largest):.4g} deg); it goes "
-                f"{limit:.4g} rad ({np.degrees(limit):.4g} deg) to either side (steering.limit of {plant.meaning.source})",
+                f"{manoeuvre.kind} turns the steering wheel by {largest:.4g} rad ({np.degrees(largest):.4g} deg); "
+                "it goes "
+                f"{limit:.4g} rad ({np.degrees(limit):.4g} deg) to either side (steering.limit of "
+                f"{plant.meaning.source})",
                 source="manoeuvre",
             )
 
@@ -217,7 +240,8 @@ def _check_step(plant: Plant, step: float) -> None:
             raise InputError(
                 f"{constant.value:g} {constant.unit} is too stiff for a step of {1000 * step:g} ms "
                 f"(time constant {1000 * constant.seconds:.3g} ms); "
-                f"allowed is at most {constant.value * (STABLE * constant.seconds / step) ** constant.power:.3g} {constant.unit}, "
+                f"allowed is at most {constant.value * (STABLE * constant.seconds / step) ** constant.power:.3g} "
+                f"{constant.unit}, "
                 f"or a step of at most {1000 * STABLE * constant.seconds:.3g} ms",
                 key=constant.key,
                 source=plant.meaning.source,
@@ -296,5 +320,6 @@ def _diverged(run: Run, step: float) -> str:
     name = broken[0] if broken else max(accelerations, key=lambda each: abs(last[each]))
     return (
         f"{who}: diverged at t = {run.time[-1]:.4f} s, "
-        f"{name} = {last[name]:.3g} {run.channels[name].unit}; the step of {1000 * step:g} ms is too long for the stiffest element"
+        f"{name} = {last[name]:.3g} {run.channels[name].unit}; the step of {1000 * step:g} ms is too long for the "
+        "stiffest element"
     )

@@ -17,7 +17,9 @@ from .plant import Plant
 _FORCES = 1e3  # N and N m: scale of the inner states that are forces
 _SPEEDS = 10.0  # rad/s
 _BRISTLE = 2  # which inner state of a wheel is the brake's
-_TRIM_ANGLE, _TRIMMING, _GEAR, _SHIFT_BEGAN = (SIGNALS.index(name) for name in ("trim_angle", "trimming", "gear", "shift_began"))
+_TRIM_ANGLE, _TRIMMING, _GEAR, _SHIFT_BEGAN = (
+    SIGNALS.index(name) for name in ("trim_angle", "trimming", "gear", "shift_began")
+)
 SETTLED = 1e-6
 """Largest acceleration that counts as none [m/s² or rad/s²]."""
 CREEP = -0.05
@@ -36,10 +38,11 @@ class Blocks:
 
 
 def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
-    """Data of the car running straight along x at a steady speed, its front axle at x = 0: nothing accelerates, inner states rest.
+    """Data of the car running straight along x at a steady speed, its front axle at x = 0: nothing accelerates, inner
+    states rest.
 
-    Solved for: height, roll, pitch and heading of the body, travels, steering, wheel speeds, the inner states of tyres and
-    engine, the controller's force, and the steering wheel angle that keeps it straight.
+    Solved for: height, roll, pitch and heading of the body, travels, steering, wheel speeds, the inner states of tyres
+    and engine, the controller's force, and the steering wheel angle that keeps it straight.
 
     Args:
         blocks: inputs, held at their first value, and road.
@@ -54,16 +57,20 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
         top = _top_speed(plant, blocks, speed)
         if 0 < top < speed - TOP_SPEED_WITHIN:
             raise InputError(
-                f"{speed:.4g} m/s ({3.6 * speed:.1f} km/h) is not allowed; the car goes {top:.1f} m/s ({3.6 * top:.0f} km/h) at most",
+                f"{speed:.4g} m/s ({3.6 * speed:.1f} km/h) is not allowed; the car goes {top:.1f} m/s "
+                f"({3.6 * top:.0f} km/h) at most",
                 key="speed",
             )
     if not residual < SETTLED:
         raise SimulationError(
-            f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s in model "
+            f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s "
+            "in model "
             f"{plant.meaning.model}; check preloads, sprung mass and tyres"
         )
     if speed > 0 and plant.meaning.driving and signals_of(data.userdata)[SIGNALS.index("accelerator")] < CREEP:
-        raise InputError(f"{speed:g} m/s is not allowed; idling in gear the car creeps faster, and nobody brakes", key="speed")
+        raise InputError(
+            f"{speed:g} m/s is not allowed; idling in gear the car creeps faster, and nobody brakes", key="speed"
+        )
     joints = {travel.station: plant.model.joint(f"{travel.station}_travel") for travel in plant.meaning.travels}
     check_deflections(plant, {station: float(data.qpos[int(joint.qposadr[0])]) for station, joint in joints.items()})
     return data

@@ -123,7 +123,8 @@ def to_si(value: Any, unit: str) -> float:
 
 @dataclass(frozen=True)
 class Quantity:
-    """Pydantic annotation of a float held in SI `unit`, with optional bounds: ``Annotated[float, Quantity("m", gt=0)]``."""
+    """Pydantic annotation of a float held in SI `unit`, with optional bounds: ``Annotated[float, Quantity("m",
+    gt=0)]``."""
 
     unit: str
     gt: float | None = None

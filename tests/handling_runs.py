@@ -15,7 +15,15 @@ from susp_mj.names import CORNERS
 from susp_mj.run import Run, described
 
 _ZERO = (
-    *("position_x", "position_y", "yaw_angle", "yaw_rate", "side_slip_angle", "rear_side_slip_angle", "lateral_acceleration"),
+    *(
+        "position_x",
+        "position_y",
+        "yaw_angle",
+        "yaw_rate",
+        "side_slip_angle",
+        "rear_side_slip_angle",
+        "lateral_acceleration",
+    ),
     *("longitudinal_acceleration", "body_displacement", "body_acceleration", "roll_angle", "pitch_angle"),
 )
 STATIC = {"fl": 5500.0, "fr": 5500.0, "rl": 5000.0, "rr": 5000.0}
@@ -27,10 +35,15 @@ def driven(manoeuvre: Manoeuvre, quantity: str, time: np.ndarray) -> np.ndarray:
     return np.zeros_like(time) if found is None else found[0]
 
 
-def made_up(manoeuvre: Manoeuvre, time: np.ndarray, facts: dict[str, float] | None = None, **channels: np.ndarray) -> Run:
-    """A run of a freely driving car; channels that are not given are zero, wheel loads static. Names with a station are per wheel."""
+def made_up(
+    manoeuvre: Manoeuvre, time: np.ndarray, facts: dict[str, float] | None = None, **channels: np.ndarray
+) -> Run:
+    """A run of a freely driving car; channels that are not given are zero, wheel loads static. Names with a station are
+    per wheel."""
     values = dict.fromkeys(_ZERO, 0.0 * time)
-    values |= {name: driven(manoeuvre, name, time) for name in ("steering_wheel_angle", "accelerator", "brake_pedal", "wind_y")}
+    values |= {
+        name: driven(manoeuvre, name, time) for name in ("steering_wheel_angle", "accelerator", "brake_pedal", "wind_y")
+    }
     values["speed"] = np.full_like(time, manoeuvre.driving_speed())
     for corner in CORNERS:
         values[f"{corner}_wheel_load"] = np.full_like(time, STATIC[corner])
@@ -62,7 +75,8 @@ def made_up(manoeuvre: Manoeuvre, time: np.ndarray, facts: dict[str, float] | No
 
 @dataclass(frozen=True)
 class Bicycle:
-    """Linear bicycle model with roll of second order and a lateral load transfer in proportion to the lateral acceleration."""
+    """Linear bicycle model with roll of second order and a lateral load transfer in proportion to the lateral
+    acceleration."""
 
     mass: float = 2140.0
     inertia: float = 4400.0
@@ -164,11 +178,17 @@ class Bicycle:
         return made_up(manoeuvre, time, self.facts, **channels, **more)
 
 
-def compared(*runs: Run, names: tuple[str, ...] = ("configuration 3", "configuration 4", "configuration 5")) -> Comparison:
+def compared(
+    *runs: Run, names: tuple[str, ...] = ("configuration 3", "configuration 4", "configuration 5")
+) -> Comparison:
     """Made-up runs side by side with every number."""
     configurations = [
-        Configuration(name, "made up", run, evaluate(run, tuple(NUMBERS))) for name, run in zip(names[: len(runs)], runs, strict=True)
+        Configuration(name, "made up", run, evaluate(run, tuple(NUMBERS)))
+        for name, run in zip(names[: len(runs)], runs, strict=True)
     ]
     applying = [name for name in NUMBERS if any(each.numbers[name].applies for each in configurations)]
-    kept = [Configuration(each.name, each.title, each.run, {n: each.numbers[n] for n in applying}) for each in configurations]
+    kept = [
+        Configuration(each.name, each.title, each.run, {n: each.numbers[n] for n in applying})
+        for each in configurations
+    ]
     return Comparison("Handling", "Made-up runs.", kept)

@@ -55,7 +55,9 @@ def film(clips, tmp_path_factory):
     if missing:
         pytest.fail(missing)
     done = []
-    path = render_video(clips, tmp_path_factory.mktemp("film") / "deep" / "bump.mp4", size=SIZE, fps=FPS, progress=done.append)
+    path = render_video(
+        clips, tmp_path_factory.mktemp("film") / "deep" / "bump.mp4", size=SIZE, fps=FPS, progress=done.append
+    )
     return path, done, decoded(path)
 
 
@@ -125,9 +127,15 @@ def test_coil_is_as_long_as_the_suspension_says(model):
     for time in (0.0, 0.25, 0.3, 0.6):
         pose = pose_at(run, time)
         place(drawn, data, pose)
-        mujoco.mjv_updateScene(drawn, data, mujoco.MjvOption(), None, mujoco.MjvCamera(), mujoco.mjtCatBit.mjCAT_ALL, scene)
+        mujoco.mjv_updateScene(
+            drawn, data, mujoco.MjvOption(), None, mujoco.MjvCamera(), mujoco.mjtCatBit.mjCAT_ALL, scene
+        )
         stretch_coil(drawn, data, scene, pose)
-        geom = next(each for each in scene.geoms[: scene.ngeom] if each.objid == coil and each.objtype == mujoco.mjtObj.mjOBJ_GEOM)
+        geom = next(
+            each
+            for each in scene.geoms[: scene.ngeom]
+            if each.objid == coil and each.objtype == mujoco.mjtObj.mjOBJ_GEOM
+        )
         height = (vertices @ geom.mat.reshape(3, 3).T + geom.pos)[:, 2]
         expected = COIL_LENGTH - np.interp(time, run.time, run["suspension_deflection"])
         assert height.max() - height.min() == pytest.approx(expected, abs=1e-4)
@@ -163,7 +171,8 @@ def test_long_excitation_shows_where_the_wheel_load_varies_most():
 def test_same_runs_same_file(drawing, clips, tmp_path, monkeypatch):
     monkeypatch.delenv("MUJOCO_GL", raising=False)
     one, other = (
-        render_video(clips[:1], tmp_path / name, size=(160, 160), fps=3, playback=1.0).read_bytes() for name in ("1.mp4", "2.mp4")
+        render_video(clips[:1], tmp_path / name, size=(160, 160), fps=3, playback=1.0).read_bytes()
+        for name in ("1.mp4", "2.mp4")
     )
     assert one == other
 
@@ -201,7 +210,9 @@ def test_place_that_cannot_be_written(clips, tmp_path):
 
 
 def test_failure_while_drawing_leaves_nothing_and_says_why(drawing, clips, tmp_path, monkeypatch):
-    monkeypatch.setattr(render, "gl_environment", lambda backend: {**video.gl_environment(backend), "MUJOCO_GL": "nonsense"})
+    monkeypatch.setattr(
+        render, "gl_environment", lambda backend: {**video.gl_environment(backend), "MUJOCO_GL": "nonsense"}
+    )
     with pytest.raises(SuspMjError, match=r"could not be rendered: .*nonsense"):
         render_video(clips, tmp_path / "bump.mp4")
     assert list(tmp_path.iterdir()) == []
@@ -251,7 +262,8 @@ def car_run(kind="full", *, sprung=True, speed=SPEED, lifted=(), phase=0.0):
     places = PLACES[kind]
     cg_x = 0.0 if kind == "axle" else -1.4
     heave, pitch, roll = (
-        a * np.sin(w * time + phase) for a, w in ((0.03, 8.0), (0.02 * (kind != "axle"), 6.0), (0.04 * (kind != "pitch"), 7.0))
+        a * np.sin(w * time + phase)
+        for a, w in ((0.03, 8.0), (0.02 * (kind != "axle"), 6.0), (0.04 * (kind != "pitch"), 7.0))
     )
     channels = {
         "body_displacement": described("body_displacement", heave),
@@ -261,13 +273,21 @@ def car_run(kind="full", *, sprung=True, speed=SPEED, lifted=(), phase=0.0):
     channels |= {"roll_angle": described("roll_angle", roll)} if kind != "pitch" else {}
     for station, (x, y) in places.items():
         distance = 10.0 * (time + (x / speed if speed else 0.0) - 0.3)
-        road = np.where((distance > 0) & (distance < 2 * np.pi), 0.02 * (1 + 0.8 * np.sign(y)) * (1 - np.cos(distance)), 0.0)
+        road = np.where(
+            (distance > 0) & (distance < 2 * np.pi), 0.02 * (1 + 0.8 * np.sign(y)) * (1 - np.cos(distance)), 0.0
+        )
         off = (time >= lifted[0]) & (time < lifted[1]) if lifted and station == "rr" else np.zeros(len(time), bool)
         load = np.where(off, 0.0, 4000.0 + 1500 * np.sin(9 * time + x))
         wheel = road - (load - 4000.0) / TYRE_RATE + 0.03 * off if sprung else road
-        values = {"wheel_load": load, "road_height": road, "suspension_deflection": wheel - (heave + roll * y - pitch * (x - cg_x))}
+        values = {
+            "wheel_load": load,
+            "road_height": road,
+            "suspension_deflection": wheel - (heave + roll * y - pitch * (x - cg_x)),
+        }
         values |= {"wheel_displacement": wheel} if sprung else {}
-        channels |= {channel_name(station, quantity): described(quantity, value, station) for quantity, value in values.items()}
+        channels |= {
+            channel_name(station, quantity): described(quantity, value, station) for quantity, value in values.items()
+        }
     manoeuvre = {"kind": "bump", "speed": speed} if speed else {"kind": "lateral_force"}
     return Run(time, channels, {"model": kind, "manoeuvre": manoeuvre, "places": places, "facts": {"cg_x": cg_x}})
 
@@ -340,7 +360,9 @@ def test_every_wheel_stands_on_its_own_track(kind):
             assert height - bottom == pytest.approx(squeezed, abs=2e-4)
 
 
-@pytest.mark.parametrize("model", [model for model, topology in OSCILLATION.items() if topology.axles * topology.sides > 1])
+@pytest.mark.parametrize(
+    "model", [model for model, topology in OSCILLATION.items() if topology.axles * topology.sides > 1]
+)
 def test_every_model_with_several_wheels_can_be_shown(model):
     run = simulate(build(load_vehicle("s_class", "configuration_4"), model), Bump(duration=0.6))
     assert kind_of([Clip(model, run)]) == "car"
@@ -409,7 +431,12 @@ def test_video_of_cars_shows_which_wheel_lifts_and_when(drawing, tmp_path, speed
     assert len(frames) == len(times)
     lifted = np.array([alarm(frame, 0) > 60 for frame in frames])
     expected = (times >= 0.5) & (times - 0.1 < 0.698)  # a frame shows what happened since the last
-    assert (lifted == expected).all() and lifted.any() and not lifted.all() and all(alarm(frame, 1) == 0 for frame in frames)
+    assert (
+        (lifted == expected).all()
+        and lifted.any()
+        and not lifted.all()
+        and all(alarm(frame, 1) == 0 for frame in frames)
+    )
     scene = frames.astype(float)[:, 15:128, :120]
     assert np.abs(np.diff(scene, axis=0)).mean(axis=(1, 2, 3)).min() > 0.3
 
@@ -418,7 +445,9 @@ def test_runs_that_cannot_be_shown_together_or_at_all(clips, tmp_path):
     with pytest.raises(InputError, match="'linear' has one wheel and 'car' several"):
         render_video([clips[0], Clip("car", car_run())], tmp_path / "mixed.mp4")
     run = car_run()
-    poor = Run(run.time, {name: channel for name, channel in run.channels.items() if name != "rl_road_height"}, run.meta)
+    poor = Run(
+        run.time, {name: channel for name, channel in run.channels.items() if name != "rl_road_height"}, run.meta
+    )
     with pytest.raises(InputError, match=r"'poor': .*full has no channel rl_road_height"):
         render_video([Clip("poor", poor)], tmp_path / "poor.mp4")
     assert list(tmp_path.iterdir()) == []

@@ -1,4 +1,5 @@
-"""The video of cars that drive freely: where the wheels are, what is red at lift, which camera, side by side and as ghosts."""
+"""The video of cars that drive freely: where the wheels are, what is red at lift, which camera, side by side and as
+ghosts."""
 
 from __future__ import annotations
 
@@ -68,10 +69,12 @@ def driven(
     brake=None,
     wind=None,
 ):
-    """A run of a car that corners as `lateral` says [m/s² over time], steadily at every instant: rolling `soft` times as much as usual.
+    """A run of a car that corners as `lateral` says [m/s² over time], steadily at every instant: rolling `soft` times
+    as much as usual.
 
-    The front axle carries the share `front` of the load transfer; once its inner wheel is unloaded it lifts, and the rear
-    axle takes the rest. `road` gives the road height under a place (x, y), `brake` the longitudinal acceleration over time.
+    The front axle carries the share `front` of the load transfer; once its inner wheel is unloaded it lifts, and the
+    rear axle takes the rest. `road` gives the road height under a place (x, y), `brake` the longitudinal acceleration
+    over time.
     """
     time = np.arange(0.0, duration + STEP / 2, STEP)
     ay = lateral(time) if lateral else 0 * time
@@ -160,7 +163,9 @@ def rotation(axis, angle):
 
 def moved(run, name, value):
     return Run(
-        run.time, {**run.channels, name: described(name.removeprefix("fl_"), value, "fl" if name.startswith("fl_") else "")}, run.meta
+        run.time,
+        {**run.channels, name: described(name.removeprefix("fl_"), value, "fl" if name.startswith("fl_") else "")},
+        run.meta,
     )
 
 
@@ -197,12 +202,18 @@ def test_signs_of_steer_camber_and_spin():
     run = driven(None, duration=1.0)
     size = np.ones_like(run.time)
     steered = Motion(moved(run, "fl_steer_angle", 0.3 * size)).pose(0.5).wheels["fl"]
-    assert steered.upright[:, 0] @ [0, 1, 0] == pytest.approx(np.sin(0.3), rel=1e-3), "a wheel steered to the left points to the left"
+    assert steered.upright[:, 0] @ [0, 1, 0] == pytest.approx(np.sin(0.3), rel=1e-3), (
+        "a wheel steered to the left points to the left"
+    )
     leaning = Motion(moved(run, "fl_inclination_angle", 0.1 * size)).pose(0.5).wheels["fl"]
-    assert leaning.upright[:, 2] @ [0, 1, 0] == pytest.approx(np.sin(0.1)), "the top of the left wheel leans to the left"
+    assert leaning.upright[:, 2] @ [0, 1, 0] == pytest.approx(np.sin(0.1)), (
+        "the top of the left wheel leans to the left"
+    )
     early, late = (Motion(run).pose(time).wheels["fl"] for time in (0.0, 0.01))
     top_early, top_late = (wheel.turned @ early.turned.T @ [0, 0, 1.0] for wheel in (early, late))
-    assert top_late[0] - top_early[0] == pytest.approx(np.sin(0.2 / (RADIUS - 0.004)), rel=1e-3), "its top rolls forwards"
+    assert top_late[0] - top_early[0] == pytest.approx(np.sin(0.2 / (RADIUS - 0.004)), rel=1e-3), (
+        "its top rolls forwards"
+    )
 
 
 def test_wheels_roll_on_the_road_and_the_lifted_one_is_off_it():
@@ -227,7 +238,9 @@ def test_real_car_stands_on_its_road_throughout_a_lane_change():
     for time in (0.0, 1.0, 2.5, 3.5):
         for station, wheel in motion.pose(time).wheels.items():
             raised = np.interp(time, run.time, run[f"{station}_wheel_displacement"])
-            assert wheel.centre[2] - motion.chassis.centres[station][2] == pytest.approx(raised, abs=0.004), "second order in the angles"
+            assert wheel.centre[2] - motion.chassis.centres[station][2] == pytest.approx(raised, abs=0.004), (
+                "second order in the angles"
+            )
             assert wheel.centre[2] - motion.chassis.tyres[station] == pytest.approx(-wheel.load / 176000, abs=0.006)
 
 
@@ -246,7 +259,9 @@ def test_places_of_the_picture_are_those_of_the_pose():
     for station in CORNERS:
         assert data.body(f"car0_{station}_wheel").xpos == pytest.approx(pose.wheels[station].centre, abs=1e-6)
         tyre = vertices(model, data, f"car0_{station}_tyre")
-        assert np.ptp(tyre @ pose.wheels[station].upright[:, 1]) == pytest.approx(0.22, abs=2e-3), "its axis is the wheel's"
+        assert np.ptp(tyre @ pose.wheels[station].upright[:, 1]) == pytest.approx(0.22, abs=2e-3), (
+            "its axis is the wheel's"
+        )
     body = vertices(model, data, "car0_paint") @ pose.turned - pose.origin @ pose.turned
     assert 4.6 < np.ptp(body[:, 0]) < 5.4 and 1.9 < np.ptp(body[:, 1]) < 2.2 and 1.4 < body[:, 2].max() < 1.5
 
@@ -312,7 +327,10 @@ def test_diagrams_show_what_the_manoeuvre_is_about():
     ]
     rig = driven(None, speed=0.0, duration=1.0)
     rolled = moved(rig, "roll_angle", 0.05 * np.sin(rig.time))
-    assert subject(rolled)[::2] == ["Roll angle in ° (left side up +)", "Front left travel in mm"] and camera_for(rolled) == "front"
+    assert (
+        subject(rolled)[::2] == ["Roll angle in ° (left side up +)", "Front left travel in mm"]
+        and camera_for(rolled) == "front"
+    )
 
 
 @pytest.mark.parametrize("name", CAMERAS)
@@ -401,7 +419,9 @@ def test_features_lie_where_the_manoeuvre_says():
     cones = [k for k in range(model.ngeom) if model.geom_dataid[k] == model.mesh("feature0_cone").id]
     assert sorted(map(tuple, np.round(data.geom_xpos[cones][:, :2], 3).tolist())) == sorted(map(tuple, CONES["points"]))
     patch = vertices(model, data, "feature1")
-    assert patch.min(axis=0)[:2] == pytest.approx([30, 0], abs=1e-6) and patch.max(axis=0)[:2] == pytest.approx([60, 3], abs=1e-6)
+    assert patch.min(axis=0)[:2] == pytest.approx([30, 0], abs=1e-6) and patch.max(axis=0)[:2] == pytest.approx(
+        [60, 3], abs=1e-6
+    )
     gust = vertices(model, data, "feature2")
     assert (gust[:, 0].min(), gust[:, 0].max()) == pytest.approx((70, 95))
     path = vertices(model, data, "path")
@@ -450,7 +470,9 @@ def pictures():
 def frames_of(clips, folder, **options):
     path = render_video(clips, folder / "drive.mp4", size=SIZE, fps=FPS, **{"quality": "draft", **options})
     raw = subprocess.run(
-        [video.ffmpeg_program() or "ffmpeg", "-i", str(path), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"], capture_output=True, check=True
+        [video.ffmpeg_program() or "ffmpeg", "-i", str(path), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
+        capture_output=True,
+        check=True,
     ).stdout
     return np.frombuffer(raw, np.uint8).reshape(-1, SIZE[1], SIZE[0], 3)
 
@@ -515,7 +537,9 @@ def test_ghost_stands_where_its_own_run_is(pictures, tmp_path):
     assert len(alone) == len(ghost)
     before, apart = orange(alone[-1]), orange(ghost[-1])
     assert apart.sum() > before.sum() + 300
-    assert np.argwhere(apart)[:, 1].mean() > np.argwhere(before)[:, 1].mean() + 10, "the car that turns in less is further right"
+    assert np.argwhere(apart)[:, 1].mean() > np.argwhere(before)[:, 1].mean() + 10, (
+        "the car that turns in less is further right"
+    )
 
 
 def test_same_runs_same_file(pictures, tmp_path):
@@ -552,7 +576,8 @@ def test_unknown_choices_are_one_clear_line(tmp_path, options, text):
 
 
 @pytest.mark.parametrize(
-    ("options", "text"), [({"camera": "side"}, "camera: 'side' is for runs of model handling"), ({"layout": "ghost"}, "side by side")]
+    ("options", "text"),
+    [({"camera": "side"}, "camera: 'side' is for runs of model handling"), ({"layout": "ghost"}, "side by side")],
 )
 def test_other_cars_have_one_camera_and_no_ghosts(tmp_path, options, text):
     time = np.arange(0, 1, 0.01)
@@ -569,7 +594,11 @@ def test_missing_channel_and_missing_fact_are_named(tmp_path):
     poor = Run(run.time, {name: channel for name, channel in run.channels.items() if name != "yaw_angle"}, run.meta)
     with pytest.raises(InputError, match="'poor': handling has no channel yaw_angle"):
         render_video([Clip("poor", poor)], tmp_path / "drive.mp4")
-    unknown = Run(run.time, run.channels, {**run.meta, "facts": {key: value for key, value in FACTS.items() if key != "wheelbase"}})
+    unknown = Run(
+        run.time,
+        run.channels,
+        {**run.meta, "facts": {key: value for key, value in FACTS.items() if key != "wheelbase"}},
+    )
     with pytest.raises(InputError, match="'bare': the run does not say its wheelbase"):
         render_video([Clip("bare", unknown)], tmp_path / "drive.mp4")
     assert list(tmp_path.iterdir()) == []

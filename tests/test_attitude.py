@@ -1,4 +1,5 @@
-"""Attitude, load transfer and anti-roll bars: definitions on synthetic runs, the thesis' numbers, the words for no bar."""
+"""Attitude, load transfer and anti-roll bars: definitions on synthetic runs, the thesis' numbers, the words for no
+bar."""
 
 from __future__ import annotations
 
@@ -17,7 +18,11 @@ from vehicles.mjcf import build
 
 def run_of(meta=None, **channels):
     time = np.linspace(0.0, 1.0, 101)
-    return Run(time, {name: described(quantity, values, station) for name, (quantity, station, values) in channels.items()}, meta or {})
+    return Run(
+        time,
+        {name: described(quantity, values, station) for name, (quantity, station, values) in channels.items()},
+        meta or {},
+    )
 
 
 def test_thesis_bars_close_the_thesis_numbers():
@@ -36,7 +41,9 @@ def test_bars_of_appendix_9_from_the_rig(name, front, rear):
 
 
 def test_no_bar_is_said_in_words():
-    run = simulate(build(load_vehicle("s_class", "configuration_4"), "full_3dof", rig="roll"), RollAngle(front_share=0.9))
+    run = simulate(
+        build(load_vehicle("s_class", "configuration_4"), "full_3dof", rig="roll"), RollAngle(front_share=0.9)
+    )
     number = attitude.anti_roll_bar_rear(run)
     assert number.value == 0.0
     assert "springs alone exceed the target by" in number.note
@@ -76,7 +83,12 @@ def test_numbers_on_a_made_up_run():
 
 def test_a_quarter_car_has_no_attitude():
     run = run_of(wheel_load=("wheel_load", "", np.full(101, 5000.0)))
-    for number in (attitude.roll_angle_max, attitude.pitch_angle_max, attitude.load_transfer_front, attitude.load_share_front):
+    for number in (
+        attitude.roll_angle_max,
+        attitude.pitch_angle_max,
+        attitude.load_transfer_front,
+        attitude.load_share_front,
+    ):
         found = number(run)
         assert found.value is None
         assert not found.applies

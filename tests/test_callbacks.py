@@ -1,4 +1,5 @@
-"""The compiled callbacks: in place once, silent on models that are not ours, right about memory, true to a plain loop."""
+"""The compiled callbacks: in place once, silent on models that are not ours, right about memory, true to a plain
+loop."""
 
 from __future__ import annotations
 
@@ -128,8 +129,10 @@ def test_foreign_user_actuators_are_left_alone(no_callbacks, user, userdata):
 
 def test_models_without_user_actuators_move_the_same(no_callbacks):
     xml = """<mujoco><option integrator="RK4"/><worldbody>
-        <body pos="0 0 1"><joint name="a" type="hinge" axis="0 1 0" damping="0.1"/><geom type="capsule" size="0.05 0.3"/>
-        <body pos="0.3 0 0"><joint name="b" type="hinge" axis="0 1 0"/><geom type="sphere" size="0.1"/></body></body></worldbody>
+        <body pos="0 0 1"><joint name="a" type="hinge" axis="0 1 0" damping="0.1"/>
+        <geom type="capsule" size="0.05 0.3"/>
+        <body pos="0.3 0 0"><joint name="b" type="hinge" axis="0 1 0"/><geom type="sphere" size="0.1"/></body>
+        </body></worldbody>
         <actuator><motor joint="a" ctrlrange="-2 2"/><position joint="b" kp="30"/></actuator></mujoco>"""
     model = mujoco.MjModel.from_xml_string(xml)
 
@@ -295,7 +298,10 @@ def test_inputs_reach_the_stages(plant):
 # ---- laws of the user's own
 
 FAR_HELPER = "def far(x):\n    return 2.0 * x\n"
-NEAR_LAW = "def near(x):\n    return 2.0 * x\n\n\ndef force(deflection, speed, state, p):\n    return near(deflection) * p[0]\n"
+NEAR_LAW = (
+    "def near(x):\n    return 2.0 * x\n\n\ndef force(deflection, speed, state, p):\n    return near(deflection) * "
+    "p[0]\n"
+)
 FAR_LAW = (
     "from susp_test_far import far\n\n\ndef middle(x):\n    return far(x)\n\n\n"
     "def force(deflection, speed, state, p):\n    return middle(deflection) * p[0]\n"
@@ -349,7 +355,8 @@ compile_laws([law.number])
 
 
 def test_a_users_file_may_be_loaded_under_another_name(tmp_path):
-    """As a script it is ``__main__``, imported it has its own name: what one left on the disk may not break the other."""
+    """As a script it is ``__main__``, imported it has its own name: what one left on the disk may not break the
+    other."""
     (tmp_path / "mine.py").write_text(NEAR_LAW)
     for name in ("under_one_name", "under_another_name"):
         call = [sys.executable, "-c", COMPILE, name, tmp_path / "mine.py"]

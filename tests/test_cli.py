@@ -22,7 +22,9 @@ ROOT = Path(__file__).parent.parent
 
 def call(*arguments: str, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "design.cli", *arguments]
-    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env={**os.environ, **environment}, timeout=300, check=False)
+    return subprocess.run(
+        command, capture_output=True, text=True, cwd=cwd, env={**os.environ, **environment}, timeout=300, check=False
+    )
 
 
 def script(name: str, *arguments: str, cwd: Path) -> subprocess.CompletedProcess[str]:
@@ -149,18 +151,26 @@ def test_new_makes_a_car_that_can_be_shown_built_and_driven(tmp_path):
     assert (tmp_path / "sheet.html").is_file()
     assert call("build", "mine.toml", "-m", "quarter_2dof", cwd=tmp_path).returncode == 0
     assert (tmp_path / "mine_quarter_2dof.xml").is_file()
-    driven = script("bump", "--vehicle", "mine.toml", "--load", "ko", "full", "--axle", "front", "--out", "o", cwd=tmp_path)
+    driven = script(
+        "bump", "--vehicle", "mine.toml", "--load", "ko", "full", "--axle", "front", "--out", "o", cwd=tmp_path
+    )
     assert driven.returncode == 0, driven.stderr
     assert len(json.loads((tmp_path / "o" / "summary.json").read_text())["configurations"]) == 2
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in (ROOT / "manoeuvres").glob("*.py") if "__main__" in path.read_text()))
+@pytest.mark.parametrize(
+    "name", sorted(path.stem for path in (ROOT / "manoeuvres").glob("*.py") if "__main__" in path.read_text())
+)
 def test_a_manoeuvre_is_a_script(tmp_path, name):
     sets = ("configuration_3", "configuration_4")
     model = default_model(find_manoeuvre("step" if name == "road_step" else name))
     options = () if model == "handling" else ("-m", "full_3dof")
-    length = "8 s" if name in ("braking_in_turn", "swept_steer", "lenksweep", "suspension_rig", "steady_circle") else "2 s"
-    result = script(name, "--vehicle", "s_class", *options, "-c", sets[0], "-c", sets[1], "--duration", length, cwd=tmp_path)
+    length = (
+        "8 s" if name in ("braking_in_turn", "swept_steer", "lenksweep", "suspension_rig", "steady_circle") else "2 s"
+    )
+    result = script(
+        name, "--vehicle", "s_class", *options, "-c", sets[0], "-c", sets[1], "--duration", length, cwd=tmp_path
+    )
     assert result.returncode == 0, result.stderr
     (summary,) = tmp_path.rglob("summary.json")
     assert [each["configuration"] for each in json.loads(summary.read_text())["configurations"]] == list(sets)

@@ -81,7 +81,8 @@ def gain(name, frequency):
 
 @pytest.mark.parametrize("name", TABLES)
 def test_table_of_the_standard(name):
-    """0.5 % everywhere but Wd at 10 Hz: 212 is printed, 5 % off the standard's own formula and out of line with 8 and 12.5 Hz."""
+    """0.5 % everywhere but Wd at 10 Hz: 212 is printed, 5 % off the standard's own formula and out of line with 8 and
+    12.5 Hz."""
     table = TABLES[name] / 1000
     deviation = np.abs(np.abs(WEIGHTINGS[name].response(THIRD_OCTAVES)) / table - 1)
     misprint = (THIRD_OCTAVES == 10) & (name == "Wd")
@@ -91,7 +92,8 @@ def test_table_of_the_standard(name):
 
 @pytest.mark.parametrize("name", WEIGHTINGS)
 def test_weighted_sine_has_the_gain_of_the_transfer_function(name):
-    """The signal path, not the formula: sines at every third octave, rms over whole periods once the start has died away."""
+    """The signal path, not the formula: sines at every third octave, rms over whole periods once the start has died
+    away."""
     for frequency in THIRD_OCTAVES:
         time = np.arange(0, 20 + 4 / frequency, STEP)
         out = weighted(sine(1.0, frequency)(time), STEP, WEIGHTINGS[name])
@@ -120,7 +122,10 @@ def polynomials(name):
     """Numerator and denominator in s, written out from the standard's tables, for scipy's own simulation."""
     f3, q4, step = {"Wk": (12.5, 0.63, (2.37, 0.91, 3.35, 0.91)), "Wd": (2.0, 0.63, None)}[name]
     w1, w2, w3 = 2 * np.pi * np.array([0.4, 100.0, f3])
-    numerator, denominator = np.polymul([1, 0, 0], [1 / w3, 1]), np.polymul([1, np.sqrt(2) * w1, w1**2], [1 / w2**2, np.sqrt(2) / w2, 1])
+    numerator, denominator = (
+        np.polymul([1, 0, 0], [1 / w3, 1]),
+        np.polymul([1, np.sqrt(2) * w1, w1**2], [1 / w2**2, np.sqrt(2) / w2, 1]),
+    )
     denominator = np.polymul(denominator, [1 / w3**2, 1 / (q4 * w3), 1])
     if step:
         w5, q5, w6, q6 = 2 * np.pi * step[0], step[1], 2 * np.pi * step[2], step[3]
@@ -131,7 +136,8 @@ def polynomials(name):
 
 @pytest.mark.parametrize("name", ["Wk", "Wd"])
 def test_weighted_is_the_causal_filter(name):
-    """Against a state-space simulation on a finer grid: a pulse of a bump, no response before it, the same ringing after."""
+    """Against a state-space simulation on a finer grid: a pulse of a bump, no response before it, the same ringing
+    after."""
     fine = np.arange(0, 6, STEP / 10)
     pulse = np.where((fine > 2) & (fine < 2.3), np.sin(np.pi * (fine - 2) / 0.3) ** 2 * np.sin(60 * fine), 0.0)
     _, expected, _ = signal.lsim(polynomials(name), pulse, fine)
@@ -178,13 +184,16 @@ def test_vibration_dose_of_a_sine():
 
 
 def test_numbers_scale_and_have_no_sign():
-    run, other = (make(body_acceleration=lambda t, f=f: f * np.exp(-((t - 5) ** 2)) * np.sin(30 * t)) for f in (1.0, -3.0))
+    run, other = (
+        make(body_acceleration=lambda t, f=f: f * np.exp(-((t - 5) ** 2)) * np.sin(30 * t)) for f in (1.0, -3.0)
+    )
     for number in (weighted_acceleration, vibration_dose_value, maximum_transient_vibration):
         assert number(other).value == pytest.approx(3 * number(run).value, rel=1e-12)
 
 
 def test_transient_vibration_finds_the_worst_second():
-    """A sine that lasts from 6 s to 9 s: the running rms is that of the sine, the rms over 20 s is smaller by sqrt(20/3)."""
+    """A sine that lasts from 6 s to 9 s: the running rms is that of the sine, the rms over 20 s is smaller by
+    sqrt(20/3)."""
     run = make(20.0, body_acceleration=lambda t: sine(2.0, 8.0)(t) * ((t >= 6) & (t < 9)))
     number, mean = maximum_transient_vibration(run), weighted_acceleration(run)
     assert number.value == pytest.approx(2 / np.sqrt(2) * gain("Wk", 8.0), rel=0.01)
@@ -201,7 +210,9 @@ def test_transient_vibration_of_a_steady_sine_is_its_rms():
 
 
 def test_transient_vibration_of_a_step_that_does_not_divide_a_second():
-    values = [maximum_transient_vibration(make(5.0, step, body_acceleration=sine(1.0, 6.0))).value for step in (1e-3, 0.7e-3)]
+    values = [
+        maximum_transient_vibration(make(5.0, step, body_acceleration=sine(1.0, 6.0))).value for step in (1e-3, 0.7e-3)
+    ]
     assert values[0] == pytest.approx(values[1], rel=2e-3)
 
 

@@ -71,7 +71,9 @@ def test_component_travel_is_the_integral_of_the_ratio(name):
     points = [x for x in ratio.travel if abs(x) < 0.12]
     for x in (-0.115, -0.05, 0.0, 0.015, 0.11):
         inside = [p for p in points if min(0, x) < p < max(0, x)]
-        assert float(ratio.component_travel(x)) == pytest.approx(quad(ratio.at, 0, x, points=inside or None, epsabs=1e-14)[0], abs=1e-12)
+        assert float(ratio.component_travel(x)) == pytest.approx(
+            quad(ratio.at, 0, x, points=inside or None, epsabs=1e-14)[0], abs=1e-12
+        )
 
 
 @pytest.mark.parametrize("name", RATIOS)
@@ -100,7 +102,8 @@ def test_forces_speeds_and_rates_there_and_back(name):
 
 @pytest.mark.parametrize("name", RATIOS)
 def test_rate_is_the_derivative_of_force_over_component_travel(name):
-    """With the term of di/dx: central differences of F_comp over s; the table's points, where it bends, are left out."""
+    """With the term of di/dx: central differences of F_comp over s; the table's points, where it bends, are left
+    out."""
     ratio, h = RATIOS[name], 1e-6
     x = np.array([x for x in X if all(abs(x - knot) > 1e-4 for knot in ratio.travel)])
     force, rate = 4743 * np.exp(6 * x), 6 * 4743 * np.exp(6 * x)
@@ -138,7 +141,8 @@ def test_impossible_ratios(data, match, key):
 
 @pytest.mark.parametrize("name", RATIOS)
 def test_virtual_work_of_the_spring_is_the_same_on_both_sides(name):
-    """``∫ F_wheel dx = ∫ F_comp ds`` between any two positions: by the ratio to 1e-9, by the table of the component to 3e-6."""
+    """``∫ F_wheel dx = ∫ F_comp ds`` between any two positions: by the ratio to 1e-9, by the table of the component to
+    3e-6."""
     ratio, spring = RATIOS[name], wheel_spring()
     component = spring_at_component(spring, ratio)
 
@@ -178,7 +182,9 @@ def test_component_spring_of_a_constant_ratio():
 
 def test_a_ratio_too_steep_for_its_spring():
     steep = validate(MotionRatio, {"travel": [-0.1, 0.1], "ratio": [0.3, 1.2]})
-    refused("would fall .* as it is compressed", "ratio", spring_at_component, wheel_spring(LinearSpring, rate=5e3), steep)
+    refused(
+        "would fall .* as it is compressed", "ratio", spring_at_component, wheel_spring(LinearSpring, rate=5e3), steep
+    )
     refused("no preload", "spring", spring_at_component, LinearSpring(rate=27e3, stops=STOPS), RATIOS["constant"])
 
 
@@ -193,7 +199,9 @@ def test_damper_at_a_wheel_position():
         back = damper_at_wheel(component, ratio, x)
         np.testing.assert_allclose(back.force_at(v), damper.force_at(v), rtol=1e-9, atol=1e-9)
         assert back.friction == pytest.approx(25.0) and back.mount.rate == pytest.approx(4e5)
-    assert damper_at_component(damper, ratio, 0.1).force_at(0.1) < damper_at_component(damper, ratio, -0.1).force_at(0.1)
+    assert damper_at_component(damper, ratio, 0.1).force_at(0.1) < damper_at_component(damper, ratio, -0.1).force_at(
+        0.1
+    )
 
 
 # ---- progressive springs
@@ -234,8 +242,15 @@ def test_coils_become_solid_one_after_another():
     """Each segment at the force of its own gap, ``G d⁴/(8 D³) (p - d)``, then fewer turns are active."""
     turn = 78.5e9 * 0.014**4 / (8 * 0.12**3)
     closing = [turn * (pitch - 0.014) for pitch in (0.036, 0.045)]
-    spring = helical_spring(0.014, 0.12, [2, 1.5, 5], [0.036, 0.045, 0.08], preload=4000.0, stops=STOPS, shear_modulus=78.5e9)
-    for force, turns in ((closing[0] - 100, 8.5), (closing[0] + 100, 6.5), (closing[1] - 100, 6.5), (closing[1] + 100, 5.0)):
+    spring = helical_spring(
+        0.014, 0.12, [2, 1.5, 5], [0.036, 0.045, 0.08], preload=4000.0, stops=STOPS, shear_modulus=78.5e9
+    )
+    for force, turns in (
+        (closing[0] - 100, 8.5),
+        (closing[0] + 100, 6.5),
+        (closing[1] - 100, 6.5),
+        (closing[1] + 100, 5.0),
+    ):
         assert float(spring.rate_at(spring.deflection_at(force))) == pytest.approx(turn / turns, rel=1e-6)
 
 
@@ -247,13 +262,22 @@ def test_segments_of_equal_pitch_are_one_spring():
 
 def test_a_barrel_closes_its_wide_coils_first():
     """Equal pitch and wire: the wide, soft coils are solid before the narrow ones, so the spring stiffens."""
-    spring = helical_spring("14 mm", ["130 mm", "100 mm"], [3, 4], "55 mm", preload=6500.0, stops=Stops(rebound=-0.1, compression=0.06))
+    spring = helical_spring(
+        "14 mm", ["130 mm", "100 mm"], [3, 4], "55 mm", preload=6500.0, stops=Stops(rebound=-0.1, compression=0.06)
+    )
     rates = spring.rate_at([-0.05, 0.055])
     compliance = [8 * D**3 * n / (78.5e9 * 0.014**4) for D, n in ((0.13, 3), (0.1, 4))]
     np.testing.assert_allclose(rates, [1 / sum(compliance), 1 / compliance[1]], rtol=1e-6)
 
 
-HELIX = {"wire_diameter": 0.014, "coil_diameter": 0.12, "turns": [2, 5], "pitch": [0.036, 0.06], "preload": 4000.0, "stops": STOPS}
+HELIX = {
+    "wire_diameter": 0.014,
+    "coil_diameter": 0.12,
+    "turns": [2, 5],
+    "pitch": [0.036, 0.06],
+    "preload": 4000.0,
+    "stops": STOPS,
+}
 
 
 @pytest.mark.parametrize(
@@ -313,7 +337,9 @@ def test_textbook_resistances():
     assert HOLE.pressure(2e-4) == pytest.approx(860 / 2 * (2e-4 / (0.7 * 1.5e-5)) ** 2, rel=1e-12)
     assert VALVE.flow(1.4e6) == 0.0 and VALVE.pressure(1e-12) == pytest.approx(1.5e6, rel=1e-3)
     assert VALVE.flow(5e6) == pytest.approx(0.7 * 16e-6 * math.sqrt(2 * 5e6 / 860), rel=1e-12)
-    assert VALVE.flow(4e6 * (1 - 1e-9)) == pytest.approx(VALVE.flow(4e6 * (1 + 1e-9)), rel=1e-7), "fully open without a jump"
+    assert VALVE.flow(4e6 * (1 - 1e-9)) == pytest.approx(VALVE.flow(4e6 * (1 + 1e-9)), rel=1e-7), (
+        "fully open without a jump"
+    )
 
 
 def test_combinations_of_equal_resistances():
@@ -321,12 +347,16 @@ def test_combinations_of_equal_resistances():
     assert Series(CHANNEL, CHANNEL).pressure(flow) == pytest.approx(2 * CHANNEL.pressure(flow), rel=1e-12)
     assert Parallel(CHANNEL, CHANNEL).pressure(flow) == pytest.approx(CHANNEL.pressure(flow) / 2, rel=1e-9)
     assert Parallel(HOLE, HOLE).pressure(flow) == pytest.approx(HOLE.pressure(flow) / 4, rel=1e-9)
-    assert Series(CHANNEL, HOLE).pressure(flow) == pytest.approx(CHANNEL.pressure(flow) + HOLE.pressure(flow), rel=1e-12)
+    assert Series(CHANNEL, HOLE).pressure(flow) == pytest.approx(
+        CHANNEL.pressure(flow) + HOLE.pressure(flow), rel=1e-12
+    )
 
 
 def test_a_laminar_damper_is_linear_and_an_orifice_damper_square():
     ring, rod = ring_area("36 mm", "22 mm"), rod_area("22 mm")
-    assert ring == pytest.approx(math.pi / 4 * (0.036**2 - 0.022**2)) and ring + rod == pytest.approx(math.pi / 4 * 0.036**2)
+    assert ring == pytest.approx(math.pi / 4 * (0.036**2 - 0.022**2)) and ring + rod == pytest.approx(
+        math.pi / 4 * 0.036**2
+    )
     linear = hydraulic_damper(CHANNEL, CHANNEL, compression_area=rod, rebound_area=ring)
     slope = 8 * 0.012 * 0.03 / (math.pi * 0.0006**4)
     v = np.array([0.01, 0.13, 1.0, 4.0])
@@ -342,7 +372,9 @@ def test_a_laminar_damper_is_linear_and_an_orifice_damper_square():
 def test_a_blow_off_valve_makes_the_damper_degressive():
     """Before p0 the damper is that of its bleed; after it the slope falls."""
     bleed, area = CIRCUITS["series"], ring_area("36 mm", "22 mm")
-    damper = hydraulic_damper(CIRCUITS["bleed and blow-off"], bleed, compression_area=area, rebound_area=area, friction=20.0, mount=4e5)
+    damper = hydraulic_damper(
+        CIRCUITS["bleed and blow-off"], bleed, compression_area=area, rebound_area=area, friction=20.0, mount=4e5
+    )
     opening = bleed.flow(1.5e6) / area
     below, above = np.linspace(0.0, 0.95 * opening, 20), np.linspace(1.1 * opening, 1.5, 20)
     np.testing.assert_allclose(damper.force_at(below), -damper.force_at(-below), rtol=1e-3, atol=0.1)
@@ -386,7 +418,10 @@ def test_sheet_shows_the_components_where_a_ratio_is_given_and_nothing_new_elsew
     plain = characteristic("rear axle", load_vehicle("chapter3", "linear").axle("rear"))
     assert plain.component_spring is None and plain.component_damper is None
     new = {"component_spring_force_characteristic", "component_damper_force_characteristic"}
-    without, both = characteristic_plots({"linear": [plain]}), characteristic_plots({"linear": [plain], "ratio": [curve]})
+    without, both = (
+        characteristic_plots({"linear": [plain]}),
+        characteristic_plots({"linear": [plain], "ratio": [curve]}),
+    )
     assert not new & set(without) and set(both) == set(without) | new
     assert "spring travel [mm]" in both["component_spring_force_characteristic"]
     assert "damper speed, compression positive [m/s]" in both["component_damper_force_characteristic"]
@@ -411,6 +446,8 @@ def test_the_example_runs_as_a_program(tmp_path):
     example, sheet = Path(__file__).parents[1] / "examples" / "component_level.py", tmp_path / "sheet.html"
     result = subprocess.run([sys.executable, example, sheet], capture_output=True, text=True, timeout=120, check=False)
     assert result.returncode == 0, result.stderr
-    car = {name: float(peak) for name, peak in re.findall(r"car (asked|laid out) *: acceleration +([\d.]+)", result.stdout)}
+    car = {
+        name: float(peak) for name, peak in re.findall(r"car (asked|laid out) *: acceleration +([\d.]+)", result.stdout)
+    }
     assert car["asked"] == pytest.approx(7.89, abs=0.05) and car["laid out"] == pytest.approx(car["asked"], rel=0.05)
     assert "rate F/v of the damper itself" in sheet.read_text(encoding="utf-8")

@@ -1,4 +1,5 @@
-"""What every tyre with slip must do, the user's own included; the linear tyre in closed form; how files choose a tyre."""
+"""What every tyre with slip must do, the user's own included; the linear tyre in closed form; how files choose a
+tyre."""
 
 from __future__ import annotations
 
@@ -121,13 +122,16 @@ def test_no_load_no_force(kind, k, t, c, v, w):
 @every
 @given(k=slips, t=tangents, c=cambers, f=loads)
 def test_standstill_is_no_singularity(kind, k, t, c, f):
-    """Everything is finite, forces hold the parked car, and the moments that come from rolling are zero and continuous."""
+    """Everything is finite, forces hold the parked car, and the moments that come from rolling are zero and
+    continuous."""
     tyre = EXAMPLES[kind]
     still, slow = list(tyre.evaluate(k, t, c, f, 0.0, 0.0)), list(tyre.evaluate(k, t, c, f, 1e-12, 1e-12))
     assert all(map(math.isfinite, still))
     assert still[3] == 0.0
     assert slow == pytest.approx(still, rel=1e-6, abs=1e-4)
-    assert tyre.evaluate(0.02, 0.05, 0.0, 4000.0, 0.0, 0.0)[:2] == pytest.approx(tyre.evaluate(0.02, 0.05, 0.0, 4000.0)[:2], rel=1e-9)
+    assert tyre.evaluate(0.02, 0.05, 0.0, 4000.0, 0.0, 0.0)[:2] == pytest.approx(
+        tyre.evaluate(0.02, 0.05, 0.0, 4000.0)[:2], rel=1e-9
+    )
 
 
 @every
@@ -152,7 +156,8 @@ def test_sliding_sideways_altogether(kind):
 
 @every
 def test_signs(kind):
-    """A driven wheel is driven, a tyre that drifts left is pushed right and turned left, one that leans right is pushed right."""
+    """A driven wheel is driven, a tyre that drifts left is pushed right and turned left, one that leans right is pushed
+    right."""
     tyre, load = EXAMPLES[kind], 4000.0
     straight = tyre.evaluate(load=load)
     assert tyre.evaluate(0.02, 0.0, 0.0, load)[0] > 500 > -500 > tyre.evaluate(-0.02, 0.0, 0.0, load)[0]
@@ -246,7 +251,9 @@ def test_overrides_of_a_file():
     assert (tyre.vertical_stiffness, tyre.vertical_damping) == (250000.0, 50.0)
     assert (tyre.scaling.LMUY, tyre.scaling.LFZO) == (0.9, there.scaling.LFZO)
     assert tyre.lateral == there.lateral
-    at_pressure = ANY.validate_python({"kind": "magic_formula_61", "file": TIR / "mf61_205_60R15.tir", "inflation_pressure": "2.5 bar"})
+    at_pressure = ANY.validate_python(
+        {"kind": "magic_formula_61", "file": TIR / "mf61_205_60R15.tir", "inflation_pressure": "2.5 bar"}
+    )
     assert at_pressure == load_tyre(TIR / "mf61_205_60R15.tir", inflation_pressure=250000.0)
 
 
@@ -256,10 +263,22 @@ def test_overrides_of_a_file():
         ({}, ("kind", "is required", "magic_formula")),
         ({"kind": "magic_formul"}, ("'magic_formul' unknown", "did you mean 'magic_formula'", "linear")),
         ({"kind": "magic_formula"}, ("file",)),
-        ({"kind": "magic_formula", "file": TIR / "pac2002_245_40R18.tir", "scaling": {"LMUI": 1}}, ("scaling", "did you mean", "LMUY")),
-        ({"kind": "magic_formula", "file": TIR / "pac2002_245_40R18.tir", "scaling": {"LMUY": 0}}, ("scaling", "greater than 0")),
-        ({"kind": "magic_formula", "file": TIR / "pac2002_245_40R18.tir", "vertical_stiffness": -1}, ("vertical_stiffness",)),
-        ({"kind": "magic_formula_61", "file": TIR / "pac2002_245_40R18.tir"}, ("pac2002_245_40R18.tir", "another version")),
+        (
+            {"kind": "magic_formula", "file": TIR / "pac2002_245_40R18.tir", "scaling": {"LMUI": 1}},
+            ("scaling", "did you mean", "LMUY"),
+        ),
+        (
+            {"kind": "magic_formula", "file": TIR / "pac2002_245_40R18.tir", "scaling": {"LMUY": 0}},
+            ("scaling", "greater than 0"),
+        ),
+        (
+            {"kind": "magic_formula", "file": TIR / "pac2002_245_40R18.tir", "vertical_stiffness": -1},
+            ("vertical_stiffness",),
+        ),
+        (
+            {"kind": "magic_formula_61", "file": TIR / "pac2002_245_40R18.tir"},
+            ("pac2002_245_40R18.tir", "another version"),
+        ),
         ({"kind": "linear", "radius": 0.3}, ("vertical_stiffness", "nominal_load", "cornering_stiffness")),
         ({**LINEAR.model_dump(), "cornering_stiffnes": 3}, ("unknown key", "did you mean 'cornering_stiffness'")),
     ],

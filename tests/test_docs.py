@@ -21,7 +21,9 @@ def python_of(page: Path) -> str:
 def test_python_in_the_documentation_runs(page, tmp_path):
     program = tmp_path / "page.py"
     program.write_text(python_of(page))
-    result = subprocess.run([sys.executable, str(program)], capture_output=True, text=True, cwd=tmp_path, timeout=300, check=False)
+    result = subprocess.run(
+        [sys.executable, str(program)], capture_output=True, text=True, cwd=tmp_path, timeout=300, check=False
+    )
     assert result.returncode == 0, result.stderr
 
 

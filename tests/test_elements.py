@@ -74,7 +74,9 @@ def damper_of(kind, **more):
 def dampers():
     """Every kind, with and without friction and mount."""
     return [
-        pytest.param(damper_of(kind, friction=friction, mount=mount), id=f"{kind} friction={friction} mount={bool(mount)}")
+        pytest.param(
+            damper_of(kind, friction=friction, mount=mount), id=f"{kind} friction={friction} mount={bool(mount)}"
+        )
         for kind in DAMPERS
         for friction in (0.0, 40.0)
         for mount in (None, {"rate": 4e5})
@@ -180,7 +182,9 @@ def test_table_spring_goes_through_its_points():
     spring = spring_of("table")
     np.testing.assert_array_equal(spring.force_at(fields["deflection"]), fields["force"])
     inside = np.linspace(-0.06, 0.05, 1101)
-    np.testing.assert_allclose(spring.force_at(inside), PchipInterpolator(fields["deflection"], fields["force"])(inside), rtol=1e-13)
+    np.testing.assert_allclose(
+        spring.force_at(inside), PchipInterpolator(fields["deflection"], fields["force"])(inside), rtol=1e-13
+    )
 
 
 def test_table_spring_continues_straight():
@@ -188,7 +192,9 @@ def test_table_spring_continues_straight():
     fields = SPRING_FIELDS["table"]
     spring, curve = spring_of("table"), PchipInterpolator(fields["deflection"], fields["force"])
     for outside, end in ((np.linspace(-0.09, -0.06, 7), -0.06), (np.linspace(0.05, 0.07, 7), 0.05)):
-        np.testing.assert_allclose(spring.force_at(outside), curve(end) + curve.derivative()(end) * (outside - end), rtol=1e-12)
+        np.testing.assert_allclose(
+            spring.force_at(outside), curve(end) + curve.derivative()(end) * (outside - end), rtol=1e-12
+        )
 
 
 def test_table_spring_of_two_points_is_a_line():
@@ -289,7 +295,8 @@ def test_direct_damper_force(damper, v):
 @pytest.mark.parametrize("damper", [p for p in dampers() if p.values[0].active_law is MOUNTED_DAMPER])
 @given(x=deflections, y=deflections)
 def test_mounted_damper(damper, x, y):
-    """The mount carries ``k1 (x - y)``; the rod sticks within its friction, else moves as the inverse tells, and spends energy."""
+    """The mount carries ``k1 (x - y)``; the rod sticks within its friction, else moves as the inverse tells, and spends
+    energy."""
     p = damper.parameters()
     force = MOUNTED_DAMPER.force(x, 0.7, y, p)
     assert force == pytest.approx(4e5 * (x - y), rel=1e-14)
@@ -298,8 +305,12 @@ def test_mounted_damper(damper, x, y):
     if excess <= 0:
         assert rod == 0.0
     else:
-        assert rod == pytest.approx(math.copysign(float(damper.speed_at(math.copysign(excess, force))), force), rel=1e-12)
-        assert float(damper.force_at(rod)) + math.copysign(damper.friction, rod) == pytest.approx(force, rel=1e-9, abs=1e-9)
+        assert rod == pytest.approx(
+            math.copysign(float(damper.speed_at(math.copysign(excess, force))), force), rel=1e-12
+        )
+        assert float(damper.force_at(rod)) + math.copysign(damper.friction, rod) == pytest.approx(
+            force, rel=1e-9, abs=1e-9
+        )
     assert force * rod >= 0.0
 
 
@@ -330,7 +341,9 @@ def test_zones(rates, ratio, widths, v):
     damper = ZonedDamper(rates=tuple(rates), limits=tuple(limits), ratio=ratio)
     share = 2 * (ratio[0] if v > 0 else ratio[1]) / sum(ratio)
     edges = [0.0, *limits, math.inf]
-    expected = math.copysign(sum(share * r * max(0.0, min(abs(v), b) - a) for r, a, b in zip(rates, edges, edges[1:], strict=False)), v)
+    expected = math.copysign(
+        sum(share * r * max(0.0, min(abs(v), b) - a) for r, a, b in zip(rates, edges, edges[1:], strict=False)), v
+    )
     assert float(damper.force_at(v)) == pytest.approx(expected, rel=1e-12, abs=1e-12)
     average = (float(damper.force_at(abs(v))) - float(damper.force_at(-abs(v)))) / 2
     assert average == pytest.approx(abs(expected) / share, rel=1e-12, abs=1e-12)
@@ -488,8 +501,18 @@ def test_compiled_law_is_the_python_law(number):
         (SPRINGS["linear"], {"stops": STOPS}, "", "exactly one"),
         (SPRINGS["linear"], {"stops": STOPS, "rate": 2e4, "frequency": 1.2}, "", "exactly one"),
         (SPRINGS["linear"], {"stops": STOPS, "rate": "-20 N/mm"}, "rate", "greater than 0"),
-        (SPRINGS["progressive"], {**SPRING_FIELDS["progressive"], "stops": STOPS, "progressive_from": 0.07}, "progressive_from", "below"),
-        (SPRINGS["progressive"], {**SPRING_FIELDS["progressive"], "stops": STOPS, "rebound_force": 4000}, "rebound_force", "below"),
+        (
+            SPRINGS["progressive"],
+            {**SPRING_FIELDS["progressive"], "stops": STOPS, "progressive_from": 0.07},
+            "progressive_from",
+            "below",
+        ),
+        (
+            SPRINGS["progressive"],
+            {**SPRING_FIELDS["progressive"], "stops": STOPS, "rebound_force": 4000},
+            "rebound_force",
+            "below",
+        ),
         (
             SPRINGS["progressive"],
             {**SPRING_FIELDS["progressive"], "stops": STOPS, "compression_force": 5000},
@@ -497,8 +520,18 @@ def test_compiled_law_is_the_python_law(number):
             "reaches",
         ),
         (SPRINGS["table"], {"stops": STOPS, "deflection": [0, 0.1], "force": [100, 100]}, "force.1", "increase"),
-        (SPRINGS["table"], {"stops": STOPS, "deflection": [0, 0.1, 0.05], "force": [1, 2, 3]}, "deflection.2", "increase"),
-        (SPRINGS["table"], {"stops": STOPS, "deflection": [0, 0.1], "force": [100, 200, 300]}, "force", "deflection has 2"),
+        (
+            SPRINGS["table"],
+            {"stops": STOPS, "deflection": [0, 0.1, 0.05], "force": [1, 2, 3]},
+            "deflection.2",
+            "increase",
+        ),
+        (
+            SPRINGS["table"],
+            {"stops": STOPS, "deflection": [0, 0.1], "force": [100, 200, 300]},
+            "force",
+            "deflection has 2",
+        ),
         (ZonedDamper, {"rates": [3000, 600]}, "limits", "one fewer"),
         (ZonedDamper, {"rates": [3000, 600, 800], "limits": [0.3, 0.2]}, "limits", "increase"),
         (ZonedDamper, {"rates": [-3000]}, "rates.0", "greater than 0"),

@@ -86,14 +86,18 @@ def test_settling_time():
     tau = 0.8
     z = np.where(TIME < 1.0, 0.0, 0.04 * np.exp(-(TIME - 1.0) / tau))
     road = np.where(TIME <= 1.0, 0.0, 0.001)
-    assert value_of("settling_time", make(body_displacement=z, road_height=road)) == pytest.approx(tau * np.log(20), abs=2 * STEP)
+    assert value_of("settling_time", make(body_displacement=z, road_height=road)) == pytest.approx(
+        tau * np.log(20), abs=2 * STEP
+    )
 
 
 def test_settling_towards_a_new_height():
     tau = 0.5
     z = np.where(TIME < 2.0, 0.0, 0.03 * (1 - np.exp(-(TIME - 2.0) / tau)))
     road = np.where(TIME <= 2.0, 0.0, 0.03)
-    assert value_of("settling_time", make(body_displacement=z, road_height=road)) == pytest.approx(tau * np.log(20), abs=2 * STEP)
+    assert value_of("settling_time", make(body_displacement=z, road_height=road)) == pytest.approx(
+        tau * np.log(20), abs=2 * STEP
+    )
 
 
 def test_not_settled():
@@ -151,7 +155,10 @@ def test_contact_kept():
 
 
 def test_travel():
-    run = make(fl__suspension_deflection=pulse(0.01, (1.0, 0.06), (2.0, -0.03)), rl__suspension_deflection=pulse(0.0, (3.0, -0.07)))
+    run = make(
+        fl__suspension_deflection=pulse(0.01, (1.0, 0.06), (2.0, -0.03)),
+        rl__suspension_deflection=pulse(0.0, (3.0, -0.07)),
+    )
     assert value_of("travel_compression", run) == 0.06
     assert value_of("travel_rebound", run) == -0.07
     assert value_of("travel_left_compression", run) == pytest.approx(0.02, rel=1e-9)
@@ -173,7 +180,12 @@ def test_stop_hits():
         force[inside] = 100.0 * sign
         deflection[inside] = 0.081 if sign > 0 else -0.101
     other, other_deflection = pulse(0.0, (5.0, 50.0)), pulse(0.0, (5.0, 0.0805))
-    run = make(fl__stop_force=force, fl__suspension_deflection=deflection, rr__stop_force=other, rr__suspension_deflection=other_deflection)
+    run = make(
+        fl__stop_force=force,
+        fl__suspension_deflection=deflection,
+        rr__stop_force=other,
+        rr__suspension_deflection=other_deflection,
+    )
     assert value_of("stop_hits", run) == 4.0
     still = make(stop_force=0.0, suspension_deflection=0.0)
     assert value_of("stop_hits", still) == 0.0

@@ -1,4 +1,5 @@
-"""Bad input of the car that drives freely: one line that names file, key, value and what is allowed, and no folder left behind."""
+"""Bad input of the car that drives freely: one line that names file, key, value and what is allowed, and no folder left
+behind."""
 
 from __future__ import annotations
 
@@ -17,7 +18,10 @@ from vehicles.mjcf import build, write
 from vehicles.vehicle import FOLDER, load_vehicle
 
 SALOON = (FOLDER / "s_class.toml").read_text(encoding="utf-8")
-TYRES = {name: (FOLDER / "tyres" / f"{name}.tir").read_text(encoding="utf-8") for name in ("pac2002_235_55R17", "mf61_205_60R15")}
+TYRES = {
+    name: (FOLDER / "tyres" / f"{name}.tir").read_text(encoding="utf-8")
+    for name in ("pac2002_235_55R17", "mf61_205_60R15")
+}
 
 
 def changed(text: str, old: str, new: str) -> str:
@@ -37,7 +41,8 @@ def line_of_case(tmp_path: Path, manoeuvre: str, more: str = "") -> str:
     """The one line that a case with this manoeuvre ends with; nothing of its results may stay."""
     path = tmp_path / "mine.toml"
     path.write_text(
-        f'title = "t"\nmodel = "handling"\n[manoeuvre]\n{manoeuvre}\n[[configuration]]\nname = "a"\nvehicle = "s_class"\n{more}',
+        f'title = "t"\nmodel = "handling"\n[manoeuvre]\n{manoeuvre}\n[[configuration]]\n'
+        f'name = "a"\nvehicle = "s_class"\n{more}',
         encoding="utf-8",
     )
     with pytest.raises((InputError, SimulationError)) as caught:
@@ -79,20 +84,26 @@ def test_a_car_whose_tyre_file_misses_a_coefficient_names_that_file(tmp_path):
 
 def test_a_torque_map_that_is_not_monotone_in_speed(tmp_path):
     line = line_of_vehicle(tmp_path, changed(SALOON, '"1000 1/min", "1500 1/min"', '"1500 1/min", "1000 1/min"'))
-    assert line == "mine.toml: powertrain.speed.2: 1000 1/min follows 1500 1/min; the torque map must increase strictly in speed"
+    assert (
+        line == "mine.toml: powertrain.speed.2: 1000 1/min follows 1500 1/min; "
+        "the torque map must increase strictly in speed"
+    )
 
 
 def test_a_table_over_travel_that_does_not_cover_the_stops(tmp_path):
     line = line_of_vehicle(tmp_path, changed(SALOON, "travel = [-0.12, -0.10,", "travel = [-0.09, -0.085,"))
     assert line == (
-        "mine.toml: front.kinematics.travel: -0.09 to 0.12 m does not cover the stops, -0.1 to 0.1 m; it must reach from stop to stop"
+        "mine.toml: front.kinematics.travel: -0.09 to 0.12 m does not cover the stops, -0.1 to 0.1 m; it must reach "
+        "from stop to stop"
     )
 
 
 def test_a_manoeuvre_faster_than_the_car_can_go(tmp_path):
     line = line_of_case(tmp_path, 'kind = "step_steer"\nspeed = "400 km/h"')
     found = re.fullmatch(
-        r"mine\.toml: manoeuvre\.speed: 111\.1 m/s \(400\.0 km/h\) is not allowed; the car goes (\S+) m/s \(\d+ km/h\) at most", line
+        r"mine\.toml: manoeuvre\.speed: 111\.1 m/s \(400\.0 km/h\) is not allowed; "
+        r"the car goes (\S+) m/s \(\d+ km/h\) at most",
+        line,
     )
     assert found is not None
     assert 60 < float(found[1]) < 90
@@ -118,22 +129,34 @@ def test_a_damaged_tyre_file(tmp_path, key, value, line):
 
 def test_a_pressure_is_refused_where_it_is_written(tmp_path):
     line = line_of_vehicle(
-        tmp_path, changed(SALOON, 'file = "pac2002_235_55R17.tir"', 'file = "pac2002_235_55R17.tir"\ninflation_pressure = "2 bar"')
+        tmp_path,
+        changed(
+            SALOON, 'file = "pac2002_235_55R17.tir"', 'file = "pac2002_235_55R17.tir"\ninflation_pressure = "2 bar"'
+        ),
     )
-    assert line == "mine.toml: front.handling_tyre.inflation_pressure: MF 5.2 does not depend on it; take a tyre of MF 6.1"
+    assert (
+        line == "mine.toml: front.handling_tyre.inflation_pressure: MF 5.2 does not depend on it; take a tyre of MF 6.1"
+    )
 
 
 def test_a_tyre_that_cannot_carry_the_car(tmp_path):
     line = line_of_vehicle(
-        tmp_path, changed(SALOON, 'file = "pac2002_235_55R17.tir"', 'file = "pac2002_235_55R17.tir"\nvertical_stiffness = "10 N/mm"')
+        tmp_path,
+        changed(
+            SALOON, 'file = "pac2002_235_55R17.tir"', 'file = "pac2002_235_55R17.tir"\nvertical_stiffness = "10 N/mm"'
+        ),
     )
-    assert line.startswith("mine.toml: front.handling_tyre.vertical_stiffness: 10000 N/m is not allowed; 5028 N would press")
+    assert line.startswith(
+        "mine.toml: front.handling_tyre.vertical_stiffness: 10000 N/m is not allowed; 5028 N would press"
+    )
     assert line.endswith("more than half its radius of 345 mm")
 
 
 def test_a_centre_of_gravity_below_the_ground(tmp_path):
     line = line_of_vehicle(tmp_path, changed(SALOON, '"0.3259 m"', '"-3 m"'))
-    assert line == "mine.toml: loads.ko.cg.2: -3 m is not allowed; the centre of gravity would lie 2.68 m below the ground"
+    assert (
+        line == "mine.toml: loads.ko.cg.2: -3 m is not allowed; the centre of gravity would lie 2.68 m below the ground"
+    )
 
 
 @pytest.mark.parametrize(
@@ -141,12 +164,14 @@ def test_a_centre_of_gravity_below_the_ground(tmp_path):
     [
         (
             'kind = "step_steer"\nangle = 85',  # degrees were meant
-            "mine.toml: manoeuvre: step_steer turns the steering wheel by 51.07 rad (2926 deg); it goes 9.425 rad (540 deg) to either "
+            "mine.toml: manoeuvre: step_steer turns the steering wheel by 51.07 rad (2926 deg); it goes 9.425 rad "
+            "(540 deg) to either "
             "side (steering.limit of s_class.toml)",
         ),
         (
             'kind = "suspension_rig"\ntest = "steer"\nsteering_wheel_angle = "720 deg"',
-            "mine.toml: manoeuvre: suspension_rig turns the steering wheel by 12.57 rad (720 deg); it goes 9.425 rad (540 deg) to either "
+            "mine.toml: manoeuvre: suspension_rig turns the steering wheel by 12.57 rad (720 deg); it goes 9.425 "
+            "rad (540 deg) to either "
             "side (steering.limit of s_class.toml)",
         ),
         (
@@ -155,19 +180,30 @@ def test_a_centre_of_gravity_below_the_ground(tmp_path):
         ),
         (
             'kind = "bump"\nlength = "10 mm"',
-            "mine.toml: manoeuvre.length: 0.01 m is not allowed for a car that drives freely; it must be from 0.2 m to 20 km",
+            "mine.toml: manoeuvre.length: 0.01 m is not allowed for a car that drives freely; it must be from 0.2 m "
+            "to 20 km",
         ),
         (
             'kind = "uneven_road"\nlength = 1e12',
-            "mine.toml: manoeuvre.length: 1e+12 m is not allowed for a car that drives freely; it must be from 0.2 m to 20 km",
+            "mine.toml: manoeuvre.length: 1e+12 m is not allowed for a car that drives freely; it must be from 0.2 "
+            "m to 20 km",
         ),
-        ('kind = "sine_steer"\nfrequency = "100 Hz"', "mine.toml: manoeuvre.frequency: 100.0 is not allowed; it must be at most 50.0"),
+        (
+            'kind = "sine_steer"\nfrequency = "100 Hz"',
+            "mine.toml: manoeuvre.frequency: 100.0 is not allowed; it must be at most 50.0",
+        ),
         (
             'kind = "lenksweep"\nend_frequency = "100 Hz"',
             "mine.toml: manoeuvre.end_frequency: 100.0 is not allowed; it must be at most 50.0",
         ),
-        ('kind = "cross_slope"\ntransition = 1e14', "mine.toml: manoeuvre.transition: 1e+14 is not allowed; it must be at most 20000.0"),
-        ('kind = "random_road"\ntrack = 1e6', "mine.toml: manoeuvre.track: 1000000.0 is not allowed; it must be at most 10.0"),
+        (
+            'kind = "cross_slope"\ntransition = 1e14',
+            "mine.toml: manoeuvre.transition: 1e+14 is not allowed; it must be at most 20000.0",
+        ),
+        (
+            'kind = "random_road"\ntrack = 1e6',
+            "mine.toml: manoeuvre.track: 1000000.0 is not allowed; it must be at most 10.0",
+        ),
     ],
 )
 def test_manoeuvres_that_cannot_be(tmp_path, manoeuvre, line):
@@ -180,7 +216,9 @@ def test_a_car_that_tips_over_its_nose_says_so(tmp_path):
 
 
 def test_a_lane_change_that_ends_before_its_lanes_is_none_without_cones():
-    run = simulate(build(load_vehicle("s_class"), "handling"), read_manoeuvre({"kind": "lane_change", "speed": "5 km/h"}))
+    run = simulate(
+        build(load_vehicle("s_class"), "handling"), read_manoeuvre({"kind": "lane_change", "speed": "5 km/h"})
+    )
     for name in ("cones_hit", "lane_departure"):
         number = NUMBERS[name](run)
         assert number.value is None
@@ -188,7 +226,10 @@ def test_a_lane_change_that_ends_before_its_lanes_is_none_without_cones():
 
 
 def test_a_circle_that_is_left_at_once_has_no_inner_wheel_load():
-    run = simulate(build(load_vehicle("s_class"), "handling"), read_manoeuvre({"kind": "steady_circle", "radius": 5, "duration": 8}))
+    run = simulate(
+        build(load_vehicle("s_class"), "handling"),
+        read_manoeuvre({"kind": "steady_circle", "radius": 5, "duration": 8}),
+    )
     for name in ("inner_wheel_load_front", "inner_wheel_load_rear"):
         number = NUMBERS[name](run)
         assert number.value is None
@@ -198,14 +239,30 @@ def test_a_circle_that_is_left_at_once_has_no_inner_wheel_load():
 @pytest.mark.parametrize(
     ("place", "value", "line"),
     [
-        (HEAD.index("full_torque"), 1e9, "'full_torque' is not where the car's numbers say; leave places and lengths as they are"),
-        (len(HEAD) + WHEEL.index("path"), 1e9, "'path' is not where the car's numbers say; leave places and lengths as they are"),
-        (len(HEAD) + WHEEL.index("tyre_parameters"), -5, "'tyre_parameters' is not where the car's numbers say; leave places"),
+        (
+            HEAD.index("full_torque"),
+            1e9,
+            "'full_torque' is not where the car's numbers say; leave places and lengths as they are",
+        ),
+        (
+            len(HEAD) + WHEEL.index("path"),
+            1e9,
+            "'path' is not where the car's numbers say; leave places and lengths as they are",
+        ),
+        (
+            len(HEAD) + WHEEL.index("tyre_parameters"),
+            -5,
+            "'tyre_parameters' is not where the car's numbers say; leave places",
+        ),
         (len(HEAD) + WHEEL.index("steering"), 9999, "'steering' of a wheel lies outside the model; keep the order"),
         (HEAD.index("gears"), 99, "99 gears are not allowed; 1 to 12 are"),
         (HEAD.index("wind_x"), 5000, "5000 is not allowed for 'wind_x'; the model has 34 actuators, 0 to 33"),
         (HEAD.index("freedoms"), 3, "is written for 3 freedoms, the model has 16; add no joints, build the car anew"),
-        (HEAD.index("engine_inertia"), 0, "radius of a wheel, engine_inertia and steering_ratio must be greater than 0"),
+        (
+            HEAD.index("engine_inertia"),
+            0,
+            "radius of a wheel, engine_inertia and steering_ratio must be greater than 0",
+        ),
     ],
 )
 def test_a_written_file_with_numbers_changed_by_hand(tmp_path, place, value, line):
@@ -225,7 +282,11 @@ def test_a_written_file_with_numbers_changed_by_hand(tmp_path, place, value, lin
     ("old", "new", "line"),
     [
         (f'name="{CAR_NUMERIC}"', 'name="other"', "is required; it holds the numbers of model handling"),
-        ('name="fl_steering"', 'name="other"', "actuator 'fl_steering' is not where the car's numbers say; keep the order"),
+        (
+            'name="fl_steering"',
+            'name="other"',
+            "actuator 'fl_steering' is not where the car's numbers say; keep the order",
+        ),
     ],
 )
 def test_a_written_file_with_names_changed_by_hand(tmp_path, old, new, line):

@@ -138,7 +138,8 @@ def test_wind_and_slope_push_the_car_and_a_driver_holds_it(plant):
 
 
 def test_the_rig_reads_back_what_the_vehicle_file_says(car, rig):
-    """Bump steer, bump camber and the roll centre are the slopes of the axle's own tables; the ratio is the steering's."""
+    """Bump steer, bump camber and the roll centre are the slopes of the axle's own tables; the ratio is the
+    steering's."""
     run = simulate(rig, SuspensionRig())
     for axle in ("front", "rear"):
         table = car.axle(axle).kinematics
@@ -150,7 +151,9 @@ def test_the_rig_reads_back_what_the_vehicle_file_says(car, rig):
             assert NUMBERS[f"{name}_{axle}"](run).value == pytest.approx(slope, rel=0.05), (name, axle)
         expected = table.roll_centre_height(car.axle(axle).track)
         assert NUMBERS[f"roll_centre_height_{axle}"](run).value == pytest.approx(expected, rel=0.05)
-    assert kinematics.steering_ratio(simulate(rig, SuspensionRig(test="steer"))).value == pytest.approx(car.steering.ratio, rel=0.02)
+    assert kinematics.steering_ratio(simulate(rig, SuspensionRig(test="steer"))).value == pytest.approx(
+        car.steering.ratio, rel=0.02
+    )
 
 
 def test_roll_stiffness_on_the_rig_is_that_of_springs_and_bars(car, rig):

@@ -1,4 +1,5 @@
-"""Kinematics, compliance, steering, power train, brakes and air of the shipped cars, against figures worked out here."""
+"""Kinematics, compliance, steering, power train, brakes and air of the shipped cars, against figures worked out
+here."""
 
 from __future__ import annotations
 
@@ -17,7 +18,10 @@ from vehicles import available_vehicles, load_vehicle
 CARS = [name for name in available_vehicles() if load_vehicle(name).steering is not None]
 TYRES = Path(vehicles.__file__).parent / "tyres"
 LINES = [
-    ({"front.kinematics.travel": [-0.12, 0.0, "0 mm"]}, "front.kinematics.travel.2: 0 m follows 0 m; travels must increase strictly"),
+    (
+        {"front.kinematics.travel": [-0.12, 0.0, "0 mm"]},
+        "front.kinematics.travel.2: 0 m follows 0 m; travels must increase strictly",
+    ),
     (
         {"front.kinematics.travel": [-0.12, 0.01, 0.12]},
         "front.kinematics.travel: -0.12 to 0.12 m has no point at 0; the table must have one there",
@@ -25,11 +29,13 @@ LINES = [
     ({"front.kinematics.travel": [0.0]}, "front.kinematics.travel: [0.0] is not allowed; give two travels at least"),
     (
         {"front.kinematics.travel": [-0.09, 0.0, 0.12]},
-        "front.kinematics.travel: -0.09 to 0.12 m does not cover the stops, -0.1 to 0.1 m; it must reach from stop to stop",
+        "front.kinematics.travel: -0.09 to 0.12 m does not cover the stops, -0.1 to 0.1 m; it must reach from stop "
+        "to stop",
     ),
     (
         {"rear.kinematics.travel": [-0.12, 0.0, 0.08]},
-        "rear.kinematics.travel: -0.12 to 0.08 m does not cover the stops, -0.1 to 0.1 m; it must reach from stop to stop",
+        "rear.kinematics.travel: -0.12 to 0.08 m does not cover the stops, -0.1 to 0.1 m; it must reach from stop "
+        "to stop",
     ),
     ({"front.kinematics.steer": [0.0]}, "front.kinematics.steer: [0.0] is not allowed; give two steer angles at least"),
     (
@@ -42,9 +48,13 @@ LINES = [
     ),
     (
         {"front.kinematics.steer": [-0.2, 0.0, 0.7]},
-        "front.kinematics.steer: -0.2 to 0.7 rad does not cover the steering, -0.5818 to 0.5818 rad (steering.limit / steering.ratio)",
+        "front.kinematics.steer: -0.2 to 0.7 rad does not cover the steering, -0.5818 to 0.5818 rad (steering.limit "
+        "/ steering.ratio)",
     ),
-    ({"rear.kinematics.steer": [-0.7, 0.0, 0.7]}, "rear.kinematics.steer: is not allowed; only the front wheels are steered"),
+    (
+        {"rear.kinematics.steer": [-0.7, 0.0, 0.7]},
+        "rear.kinematics.steer: is not allowed; only the front wheels are steered",
+    ),
     ({"front.kinematics.lateral": [0.0, 0.1]}, "front.kinematics.lateral: 2 values are not allowed; travel has 3"),
     (
         {"front.kinematics.lateral": [-0.02, "1 mm", 0.02]},
@@ -54,11 +64,23 @@ LINES = [
         {"front.kinematics.longitudinal": [-0.02, "1 mm", 0.02]},
         "front.kinematics.longitudinal.1: 0.001 m is not allowed at travel 0; it must be 0 there",
     ),
-    ({"front.kinematics.lateral": ["1 deg", 0, 0]}, "front.kinematics.lateral.0: '1 deg' has the wrong unit; expected one like m"),
+    (
+        {"front.kinematics.lateral": ["1 deg", 0, 0]},
+        "front.kinematics.lateral.0: '1 deg' has the wrong unit; expected one like m",
+    ),
     ({"front.kinematics.toe": [0.1, 0.0]}, "front.kinematics.toe: 2 values are not allowed; travel has 3"),
-    ({"front.kinematics.toe": "1 deg"}, "front.kinematics.toe: '1 deg' is not a table; write a list of angles, or of lists of them"),
-    ({"front.kinematics.toe": ["1 deg", "0 m", "1 deg"]}, "front.kinematics.toe.1: '0 m' has the wrong unit; expected one like rad"),
-    ({"front.kinematics.toe": [[0, 0], [0, 0], [0, 0]]}, "front.kinematics.toe.0: a row of 2 is not allowed; give one value"),
+    (
+        {"front.kinematics.toe": "1 deg"},
+        "front.kinematics.toe: '1 deg' is not a table; write a list of angles, or of lists of them",
+    ),
+    (
+        {"front.kinematics.toe": ["1 deg", "0 m", "1 deg"]},
+        "front.kinematics.toe.1: '0 m' has the wrong unit; expected one like rad",
+    ),
+    (
+        {"front.kinematics.toe": [[0, 0], [0, 0], [0, 0]]},
+        "front.kinematics.toe.0: a row of 2 is not allowed; give one value",
+    ),
     (
         {"front.kinematics.steer": [-0.7, 0.0, 0.7], "front.kinematics.toe": [[0, 0, 0], [0, 0, "x"], [0, 0, 0]]},
         "front.kinematics.toe.1.2: 'x' is not a number with a unit; write it like '1 rad'",
@@ -77,7 +99,10 @@ LINES = [
         "choose travel, steer, lateral, longitudinal, longitudinal_centre, toe, camber",
     ),
     ({"front.compliance.toe": [0, 0, 0]}, "front.compliance.lateral_force: is required by toe"),
-    ({"front.compliance.lateral_force": [-1, 0, 1]}, "front.compliance.lateral_force: stands alone; give toe or camber with it"),
+    (
+        {"front.compliance.lateral_force": [-1, 0, 1]},
+        "front.compliance.lateral_force: stands alone; give toe or camber with it",
+    ),
     (
         {"front.compliance.lateral_force": [0], "front.compliance.toe": [0]},
         "front.compliance.lateral_force: [0.0] is not allowed; give two forces at least",
@@ -108,10 +133,16 @@ LINES = [
         "front.compliance.aligning_moment.2: -1 N m follows 0 N m; moments must increase strictly",
     ),
     ({"steering.ratio": 0}, "steering.ratio: 0.0 is not allowed; it must be greater than 0.0"),
-    ({"steering.stiffness": "20000 N/m"}, "steering.stiffness: '20000 N/m' has the wrong unit; expected one like N m/rad"),
+    (
+        {"steering.stiffness": "20000 N/m"},
+        "steering.stiffness: '20000 N/m' has the wrong unit; expected one like N m/rad",
+    ),
     ({"steering.ackermann": 1.2}, "steering.ackermann: 1.2 is not allowed; it must be at most 1.0"),
     ({"steering.limit": "-3 rad"}, "steering.limit: -3.0 is not allowed; it must be greater than 0.0"),
-    ({"steering.damping": None}, "steering.damping: None is not a quantity; write a number in N m s/rad or a text like '1 N m s/rad'"),
+    (
+        {"steering.damping": None},
+        "steering.damping: None is not a quantity; write a number in N m s/rad or a text like '1 N m s/rad'",
+    ),
     (
         {"steering.trial": 0.02},
         "steering.trial: unknown key; did you mean 'trail'? choose ratio, stiffness, damping, "
@@ -126,7 +157,10 @@ LINES = [
     ({"powertrain.full_torque": [1, 2]}, "powertrain.full_torque: 2 values are not allowed; speed has 9"),
     ({"powertrain.drag_torque": [-1, -2]}, "powertrain.drag_torque: 2 values are not allowed; speed has 9"),
     ({"powertrain.drag_torque.2": 3}, "powertrain.drag_torque.2: 3.0 is not allowed; it must be at most 0.0"),
-    ({"powertrain.full_torque.2": -20}, "powertrain.full_torque.2: -20 N m is not allowed; it must be above the drag torque of -18.5 N m"),
+    (
+        {"powertrain.full_torque.2": -20},
+        "powertrain.full_torque.2: -20 N m is not allowed; it must be above the drag torque of -18.5 N m",
+    ),
     (
         {"powertrain.idle_speed": "400 1/min"},
         "powertrain.idle_speed: 400 1/min is not allowed; the torque map reaches from 500 1/min to 6400 1/min",
@@ -134,14 +168,19 @@ LINES = [
     ({"powertrain.gears": []}, "powertrain.gears: [] is not allowed; give one ratio at least"),
     ({"powertrain.gears.2": 2.5}, "powertrain.gears.2: 2.5 follows 2; the ratios must decrease strictly"),
     ({"powertrain.gears.2": -1}, "powertrain.gears.2: -1.0 is not allowed; it must be greater than 0.0"),
-    ({"powertrain.shift_up": "6500 rpm"}, "powertrain.shift_up: 6500 1/min is not allowed; the torque map ends at 6400 1/min"),
+    (
+        {"powertrain.shift_up": "6500 rpm"},
+        "powertrain.shift_up: 6500 1/min is not allowed; the torque map ends at 6400 1/min",
+    ),
     (
         {"powertrain.shift_down": "6000 rpm"},
-        "powertrain.shift_down: 6000 1/min is not allowed; it must be at least idle_speed, 800 1/min, and below shift_up, 5900 1/min",
+        "powertrain.shift_down: 6000 1/min is not allowed; it must be at least idle_speed, 800 1/min, and below "
+        "shift_up, 5900 1/min",
     ),
     (
         {"powertrain.shift_down": "700 rpm"},
-        "powertrain.shift_down: 700 1/min is not allowed; it must be at least idle_speed, 800 1/min, and below shift_up, 5900 1/min",
+        "powertrain.shift_down: 700 1/min is not allowed; it must be at least idle_speed, 800 1/min, and below "
+        "shift_up, 5900 1/min",
     ),
     (
         {"powertrain.shift_down": "3500 rpm"},
@@ -158,14 +197,17 @@ LINES = [
     ({"aerodynamics.drag": -0.1}, "aerodynamics.drag: -0.1 is not allowed; it must be at least 0.0"),
     (
         {"aerodynamics.lift": 0.1},
-        "aerodynamics.lift: unknown key; did you mean 'lift_rear'? choose area, drag, lift_front, lift_rear, side, yaw, density",
+        "aerodynamics.lift: unknown key; did you mean 'lift_rear'? choose area, drag, lift_front, lift_rear, side, "
+        "yaw, density",
     ),
     ({"aerodynamics.side": "2 1/m"}, "aerodynamics.side: '2 1/m' has the wrong unit; expected one like 1/rad"),
     ({"front.wheel_inertia": 0}, "front.wheel_inertia: 0.0 is not allowed; it must be greater than 0.0"),
 ]
 
 
-@pytest.mark.parametrize(("overrides", "line"), LINES, ids=[" and ".join(overrides) + f" {i}" for i, (overrides, _) in enumerate(LINES)])
+@pytest.mark.parametrize(
+    ("overrides", "line"), LINES, ids=[" and ".join(overrides) + f" {i}" for i, (overrides, _) in enumerate(LINES)]
+)
 def test_mistakes(overrides, line):
     with pytest.raises(InputError) as caught:
         load_vehicle("bmw_320i", overrides=overrides)
@@ -188,14 +230,19 @@ def test_what_is_not_given_is_zero():
 def test_angles_over_travel_alone_hold_at_every_steer_angle():
     plain = Kinematics(travel=(-0.1, 0.0, 0.1), steer=(-0.5, 0, 0.5), camber=("1 deg", 0, "-2 deg"))
     np.testing.assert_allclose(plain.angles("camber"), np.radians([[1] * 3, [0] * 3, [-2] * 3]))
-    rows = Kinematics(travel=(-0.1, 0.0, 0.1), steer=(-0.5, 0, 0.5), camber=([0.1, 0.2, 0.3], [0, 0, 0], ["1 deg", 0.5, 0.6]))
+    rows = Kinematics(
+        travel=(-0.1, 0.0, 0.1), steer=(-0.5, 0, 0.5), camber=([0.1, 0.2, 0.3], [0, 0, 0], ["1 deg", 0.5, 0.6])
+    )
     assert rows.angles("camber")[2, 0] == pytest.approx(math.radians(1))
     assert rows.angles("camber")[0, 2] == 0.3
 
 
-@pytest.mark.parametrize("travel", [np.linspace(-0.1, 0.1, 11), np.array([-0.1, -0.03, 0.0, 0.01, 0.1]), np.array([0.0, 0.05, 0.12])])
+@pytest.mark.parametrize(
+    "travel", [np.linspace(-0.1, 0.1, 11), np.array([-0.1, -0.03, 0.0, 0.01, 0.1]), np.array([0.0, 0.05, 0.12])]
+)
 def test_roll_centre_of_a_wheel_on_an_arc(travel):
-    """A patch that turns about an instant centre (distance d inboard, h above the ground) has its roll centre at t h / 2 d."""
+    """A patch that turns about an instant centre (distance d inboard, h above the ground) has its roll centre at t h /
+    2 d."""
     d, h, track = 1.2, 0.18, 1.52
     kinematics = Kinematics(travel=tuple(travel), lateral=tuple(h / d * travel - 0.7 * travel**2))
     assert kinematics.roll_centre_height(track) == pytest.approx(track / 2 * h / d, rel=1e-9)
@@ -281,7 +328,8 @@ def test_camber_and_roll_centre_change_as_on_real_axles(name):
 
 @pytest.mark.parametrize("name", CARS)
 def test_understeer(name):
-    """Steer angle over lateral acceleration from tyre, steering, compliance and roll, by hand with the linear single track."""
+    """Steer angle over lateral acceleration from tyre, steering, compliance and roll, by hand with the linear single
+    track."""
     car = load_vehicle(name)
     acceleration = 1.0
     mass, _, height = total(car)
@@ -316,7 +364,9 @@ def test_the_saloon_steers_itself_out_of_the_curve():
     car = load_vehicle("s_class")
     assert slope(straight(car.front.kinematics, "toe"), car.front.kinematics.travel) < 0
     assert slope(straight(car.rear.kinematics, "toe"), car.rear.kinematics.travel) > 0
-    assert slope(car.front.compliance.toe, car.front.compliance.lateral_force) == pytest.approx(math.radians(-0.04) / 1000)
+    assert slope(car.front.compliance.toe, car.front.compliance.lateral_force) == pytest.approx(
+        math.radians(-0.04) / 1000
+    )
     assert slope(car.rear.compliance.toe, car.rear.compliance.lateral_force) == pytest.approx(math.radians(0.01) / 1000)
 
 
@@ -342,7 +392,11 @@ def test_camber_over_steer_is_that_of_an_inclined_axis():
     start = straight(kinematics, "camber")[list(kinematics.travel).index(0.0)]
     for j, angle in enumerate(kinematics.steer):
         spin = np.array([0.0, 1.0, 0.0])
-        turned = spin * math.cos(angle) + np.cross(axis, spin) * math.sin(angle) + axis * (axis @ spin) * (1 - math.cos(angle))
+        turned = (
+            spin * math.cos(angle)
+            + np.cross(axis, spin) * math.sin(angle)
+            + axis * (axis @ spin) * (1 - math.cos(angle))
+        )
         top_outwards = -math.asin(turned[2])
         camber = kinematics.angles("camber")[list(kinematics.travel).index(0.0), j] - start
         assert camber == pytest.approx(top_outwards, abs=math.radians(0.25))
@@ -365,7 +419,11 @@ def test_rated_power(name, power):
 def test_torque_of_the_v8():
     """460 N m from 2700 to 4250 1/min and nowhere more."""
     powertrain = load_vehicle("s_class").powertrain
-    flat = [speed * 30 / math.pi for speed, torque in zip(powertrain.speed, powertrain.full_torque, strict=True) if torque == 460]
+    flat = [
+        speed * 30 / math.pi
+        for speed, torque in zip(powertrain.speed, powertrain.full_torque, strict=True)
+        if torque == 460
+    ]
     assert (min(flat), max(flat)) == (pytest.approx(2700), pytest.approx(4250))
     assert max(powertrain.full_torque) == 460
 

@@ -1,4 +1,5 @@
-"""Manoeuvres of a car that drives freely: what its driver does, the road it meets, and lanes as the standard has them."""
+"""Manoeuvres of a car that drives freely: what its driver does, the road it meets, and lanes as the standard has
+them."""
 
 from __future__ import annotations
 
@@ -97,7 +98,9 @@ def test_the_thesis_names_are_scripts():
     for german in ("zuziehen", "lenkwinkelsprung", "lenksweep", "lenkeinsinus"):
         script = ROOT / "manoeuvres" / f"{german}.py"
         assert f'manoeuvre_script("{ALIASES[german]}")' in script.read_text()
-        result = subprocess.run([sys.executable, str(script), "--help"], capture_output=True, text=True, timeout=60, check=False)
+        result = subprocess.run(
+            [sys.executable, str(script), "--help"], capture_output=True, text=True, timeout=60, check=False
+        )
         words = " ".join(result.stdout.split())
         assert result.returncode == 0 and "--speed" in words and "(default handling)" in words
 
@@ -125,12 +128,18 @@ def test_shipped_cases_are_understood(name):
 
 
 def test_every_driving_manoeuvre_has_a_case():
-    kinds = {find_manoeuvre(load_case(name)[0].manoeuvre["kind"]) for name in available_cases() if name.startswith("handling_")}
+    kinds = {
+        find_manoeuvre(load_case(name)[0].manoeuvre["kind"])
+        for name in available_cases()
+        if name.startswith("handling_")
+    }
     assert {*DRIVING, "bump", "suspension_rig"} <= kinds
 
 
 def test_a_model_that_cannot_steer_is_refused_in_one_line():
-    with pytest.raises(InputError, match="model full_7dof has no input 'steering_wheel_angle', which manoeuvre ramp_steer drives"):
+    with pytest.raises(
+        InputError, match="model full_7dof has no input 'steering_wheel_angle', which manoeuvre ramp_steer drives"
+    ):
         RampSteer().check([place("road_height")], "full_7dof")
     with pytest.raises(InputError, match="no input 'lateral_force', which test 'lateral_force' drives"):
         SuspensionRig(test="lateral_force").check([place("heave_target")], "mine")
@@ -151,14 +160,18 @@ def test_step_and_its_return():
     step = StepSteer(angle="85 deg", rate="500 deg/s", hold=2.0)
     assert step.rise_time == pytest.approx(0.17)
     times = [0.5, 0.585, 0.67, 2.0, 2.67, 2.755, 2.84, 6.0]
-    np.testing.assert_allclose(np.degrees(value(step, "steering_wheel_angle", times)), [0, 42.5, 85, 85, 85, 42.5, 0, 0], atol=1e-9)
+    np.testing.assert_allclose(
+        np.degrees(value(step, "steering_wheel_angle", times)), [0, 42.5, 85, 85, 85, 42.5, 0, 0], atol=1e-9
+    )
     assert np.degrees(value(StepSteer(), "steering_wheel_angle", 6.0)[0]) == pytest.approx(85)
 
 
 def test_one_sine_and_no_more():
     sine = SineSteer(amplitude="60 deg", frequency="0.5 Hz")
     np.testing.assert_allclose(
-        np.degrees(value(sine, "steering_wheel_angle", [0.5, 1.0, 1.5, 2.0, 2.5, 3.0])), [0, 60, 0, -60, 0, 0], atol=1e-9
+        np.degrees(value(sine, "steering_wheel_angle", [0.5, 1.0, 1.5, 2.0, 2.5, 3.0])),
+        [0, 60, 0, -60, 0, 0],
+        atol=1e-9,
     )
     two = SineSteer(amplitude="60 deg", frequency="0.5 Hz", periods=2)
     assert np.degrees(value(two, "steering_wheel_angle", 3.0)[0]) == pytest.approx(60)
@@ -207,9 +220,13 @@ def test_the_circle_s_speed_raises_the_lateral_acceleration_evenly():
 
 
 def test_pedals():
-    np.testing.assert_allclose(value(Braking(pedal=0.4), "brake_pedal", [0.5, 0.6, 0.7, 5.0]), [0, 0.2, 0.4, 0.4], atol=1e-12)
+    np.testing.assert_allclose(
+        value(Braking(pedal=0.4), "brake_pedal", [0.5, 0.6, 0.7, 5.0]), [0, 0.2, 0.4, 0.4], atol=1e-12
+    )
     np.testing.assert_allclose(value(Braking(), "speed_control", [0.5, 0.6, 0.7, 5.0]), [1, 0.5, 0, 0], atol=1e-12)
-    np.testing.assert_allclose(value(Acceleration(pedal=0.8), "accelerator", [0.5, 0.6, 0.7]), [0, 0.4, 0.8], atol=1e-12)
+    np.testing.assert_allclose(
+        value(Acceleration(pedal=0.8), "accelerator", [0.5, 0.6, 0.7]), [0, 0.4, 0.8], atol=1e-12
+    )
     turn = BrakingInTurn(angle="40 deg", brake_start=5.0, pedal=0.2)
     assert value(turn, "brake_pedal", 4.9)[0] == 0.0 and value(turn, "brake_pedal", 5.3)[0] == pytest.approx(0.2)
     assert np.degrees(value(turn, "steering_wheel_angle", 8.0)[0]) == pytest.approx(40)
@@ -258,7 +275,9 @@ def height_on(road, x, y):
     return np.interp(x, road.x, road.height[:, column])
 
 
-@pytest.mark.parametrize("manoeuvre", [Bump(speed=22.0), UnevenRoad(speed=22.0), RandomRoad(speed=22.0, duration=5.0, shortest=1.0)])
+@pytest.mark.parametrize(
+    "manoeuvre", [Bump(speed=22.0), UnevenRoad(speed=22.0), RandomRoad(speed=22.0, duration=5.0, shortest=1.0)]
+)
 @pytest.mark.parametrize(("x", "y"), [(0.0, 0.7), (-3.081, 0.7), (-3.081, -0.7)])
 def test_road_by_place_is_the_road_by_time(manoeuvre, x, y):
     time = np.linspace(0.0, manoeuvre.duration, 4001)
@@ -357,7 +376,9 @@ def test_a_test_on_the_rig_moves_one_input_to_both_sides_and_back(test, quantity
 def test_opposed_forces():
     rig = SuspensionRig(test="lateral_force", opposed=True)
     time = np.linspace(0, 20, 101)
-    left, right = (rig.drive(place("lateral_force", station, y=y), time)[0] for station, y in (("fl", 0.7), ("fr", -0.7)))
+    left, right = (
+        rig.drive(place("lateral_force", station, y=y), time)[0] for station, y in (("fl", 0.7), ("fr", -0.7))
+    )
     np.testing.assert_array_equal(left, -right)
     with pytest.raises(InputError, match="only forces and moments"):
         validate(SuspensionRig, {"test": "bump", "opposed": True})

@@ -1,4 +1,5 @@
-"""Numbers of a car that drives freely, against closed forms of made-up runs: bicycle model, first and second order, geometry."""
+"""Numbers of a car that drives freely, against closed forms of made-up runs: bicycle model, first and second order,
+geometry."""
 
 from __future__ import annotations
 
@@ -9,7 +10,19 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from evaluation import HANDLING, KINEMATICS, NUMBERS, attitude, braking, cornering, course, kinematics, ride, transient, wheel_lift
+from evaluation import (
+    HANDLING,
+    KINEMATICS,
+    NUMBERS,
+    attitude,
+    braking,
+    cornering,
+    course,
+    kinematics,
+    ride,
+    transient,
+    wheel_lift,
+)
 from evaluation import steering_frequency as sweep
 from evaluation.handling import averaged
 from evaluation.turning import lifting, turning_table
@@ -82,7 +95,9 @@ def circle(**more):
 def test_understeer_gradient_of_the_bicycle_model(slow_ramp):
     """EG = m/l (l_r/C_f - l_f/C_r) and v_ch = sqrt(l/EG)."""
     assert cornering.understeer_gradient(slow_ramp).value == pytest.approx(CAR.understeer, rel=0.01)
-    assert cornering.characteristic_speed(slow_ramp).value == pytest.approx(math.sqrt(CAR.wheelbase / CAR.understeer), rel=0.01)
+    assert cornering.characteristic_speed(slow_ramp).value == pytest.approx(
+        math.sqrt(CAR.wheelbase / CAR.understeer), rel=0.01
+    )
 
 
 def test_side_slip_gradient_is_the_rear_axle_s_slip(slow_ramp):
@@ -102,7 +117,10 @@ def test_an_oversteering_car_has_a_critical_speed():
 
 def test_a_turn_to_the_right_gives_the_same_numbers(slow_ramp):
     other = CAR.run(SLOW.model_copy(update={"rate": -SLOW.rate}))
-    for number in (*(n for n in HANDLING if n.__module__.endswith(("cornering", "wheel_lift"))), attitude.roll_gradient):
+    for number in (
+        *(n for n in HANDLING if n.__module__.endswith(("cornering", "wheel_lift"))),
+        attitude.roll_gradient,
+    ):
         left, right = number(slow_ramp), number(other)
         assert right.value == pytest.approx(left.value, rel=1e-9), number.__name__
         assert right.note == re.sub(r"\b([fr])([lr])\b", lambda m: m[1] + {"l": "r", "r": "l"}[m[2]], left.note)
@@ -136,7 +154,9 @@ def test_what_comes_after_leaving_the_circle_does_not_count():
     run["position_y"][60000:] += 10.0
     run["lateral_acceleration"][65000:] = 15.0
     run["fl_wheel_load"][65000:] = 0.0
-    assert cornering.lateral_acceleration_max(run).value == pytest.approx(run["lateral_acceleration"][:60000].max(), rel=1e-3)
+    assert cornering.lateral_acceleration_max(run).value == pytest.approx(
+        run["lateral_acceleration"][:60000].max(), rel=1e-3
+    )
     assert wheel_lift.wheel_lift_time(run).value == 0.0
 
 
@@ -200,7 +220,11 @@ def test_step_of_first_order_is_there_after_t_ln_10():
     lag = 0.2
     response = np.where(time > 0.5, 0.3 * (1 - np.exp(-(time - 0.5) / lag)), 0.0)
     run = made_up(manoeuvre, time, yaw_rate=response, lateral_acceleration=10 * response, roll_angle=0.1 * response)
-    for number in (transient.yaw_rate_response_time, transient.lateral_acceleration_response_time, transient.roll_angle_response_time):
+    for number in (
+        transient.yaw_rate_response_time,
+        transient.lateral_acceleration_response_time,
+        transient.roll_angle_response_time,
+    ):
         assert number(run).value == pytest.approx(lag * math.log(10), abs=2e-3)
     assert transient.yaw_rate_overshoot(run).value == 0.0
     assert transient.yaw_rate_peak_response_time(run).value is None
@@ -213,8 +237,12 @@ def test_overshoot_of_second_order():
     time, w, d = np.arange(8001) * 1e-3, 2 * math.pi * 1.2, 0.4
     wd, since = w * math.sqrt(1 - d**2), np.maximum(time - 0.5, 0.0)
     response = 1 - np.exp(-d * w * since) * (np.cos(wd * since) + d * w / wd * np.sin(wd * since))
-    run = made_up(manoeuvre, time, yaw_rate=-0.3 * response, lateral_acceleration=-4 * response, side_slip_angle=0.02 * response)
-    assert transient.yaw_rate_overshoot(run).value == pytest.approx(math.exp(-math.pi * d / math.sqrt(1 - d**2)), rel=1e-3)
+    run = made_up(
+        manoeuvre, time, yaw_rate=-0.3 * response, lateral_acceleration=-4 * response, side_slip_angle=0.02 * response
+    )
+    assert transient.yaw_rate_overshoot(run).value == pytest.approx(
+        math.exp(-math.pi * d / math.sqrt(1 - d**2)), rel=1e-3
+    )
     assert transient.yaw_rate_peak_response_time(run).value == pytest.approx(math.pi / wd, abs=2e-3)
     assert transient.tb_factor(run).value == pytest.approx(0.02 * math.pi / wd, rel=0.01)
     assert transient.side_slip_angle_steady(run).value == pytest.approx(0.02, rel=1e-3)
@@ -231,17 +259,23 @@ def test_step_of_the_bicycle_model(hold):
     assert transient.roll_angle_gain(run).value == pytest.approx(gain * v * CAR.roll_gradient, rel=1e-3)
     time = np.arange(40001) * 1e-4
     a, b = CAR.matrices(v)
-    _, states, _ = lsim((a, b, np.eye(2), np.zeros((2, 1))), driven(manoeuvre, "steering_wheel_angle", time) / CAR.ratio, time)
+    _, states, _ = lsim(
+        (a, b, np.eye(2), np.zeros((2, 1))), driven(manoeuvre, "steering_wheel_angle", time) / CAR.ratio, time
+    )
     yaw = states[:, 1]
     half = manoeuvre.start + manoeuvre.rise_time / 2
     steady = gain * math.radians(30.0)
-    assert transient.yaw_rate_response_time(run).value == pytest.approx(time[np.argmax(yaw >= 0.9 * steady)] - half, abs=5e-4)
+    assert transient.yaw_rate_response_time(run).value == pytest.approx(
+        time[np.argmax(yaw >= 0.9 * steady)] - half, abs=5e-4
+    )
     assert transient.yaw_rate_overshoot(run).value == pytest.approx(yaw[time < 3.0].max() / steady - 1, abs=1e-4)
 
 
 def test_a_step_that_does_not_become_steady_says_so():
     time = np.arange(6001) * 1e-3
-    run = made_up(StepSteer(), time, yaw_rate=np.maximum(time - 0.5, 0.0), lateral_acceleration=np.maximum(time - 0.5, 0.0))
+    run = made_up(
+        StepSteer(), time, yaw_rate=np.maximum(time - 0.5, 0.0), lateral_acceleration=np.maximum(time - 0.5, 0.0)
+    )
     assert transient.yaw_rate_gain(run).note == "not steady in the end"
 
 
@@ -263,9 +297,14 @@ def test_sweep_gives_the_bicycle_model_s_transfer_function(scale):
 def test_phase_delay_and_peaks_of_the_bicycle_model():
     run, v = CAR.run(SweptSteer()), SweptSteer().speed
     exact = CAR.transfer(np.array([1.0]), v)
-    for name, number in (("yaw_rate", sweep.yaw_rate_phase), ("lateral_acceleration", sweep.lateral_acceleration_phase)):
+    for name, number in (
+        ("yaw_rate", sweep.yaw_rate_phase),
+        ("lateral_acceleration", sweep.lateral_acceleration_phase),
+    ):
         assert number(run).value == pytest.approx(float(np.angle(exact[name][0])), abs=0.01)
-    assert sweep.yaw_rate_delay(run).value == pytest.approx(-float(np.angle(exact["yaw_rate"][0])) / (2 * math.pi), abs=2e-3)
+    assert sweep.yaw_rate_delay(run).value == pytest.approx(
+        -float(np.angle(exact["yaw_rate"][0])) / (2 * math.pi), abs=2e-3
+    )
     frequency = np.linspace(0.26, 2.5, 2000)
     stiff = Bicycle(front_stiffness=80e3, rear_stiffness=170e3)
     run = stiff.run(SweptSteer(speed="140 km/h"))
@@ -330,7 +369,9 @@ def test_front_share_and_locked_wheels():
     braked = time >= 0.5
     loads = {f"{c}_wheel_load": STATIC[c] + (1500.0 if c.startswith("f") else -1500.0) * braked for c in CORNERS}
     spin = {"rl_wheel_speed": np.where((time > 1.0) & (time < 1.75), 0.0, 100.0)}
-    run = braked_run(manoeuvre, 6.0, **loads, **spin, **{f"{c}_wheel_speed": np.full_like(time, 100.0) for c in ("fl", "fr", "rr")})
+    run = braked_run(
+        manoeuvre, 6.0, **loads, **spin, **{f"{c}_wheel_speed": np.full_like(time, 100.0) for c in ("fl", "fr", "rr")}
+    )
     assert braking.braking_load_share_front(run).value == pytest.approx(14000 / 21000, rel=1e-6)
     locked = braking.wheel_lock_time(run)
     assert locked.value == pytest.approx(0.749, abs=2e-3) and locked.note == "rl"
@@ -339,7 +380,13 @@ def test_front_share_and_locked_wheels():
 def test_split_ground_turns_and_drifts():
     manoeuvre = SplitMu()
     time = np.arange(8001) * 1e-3
-    run = braked_run(manoeuvre, 4.0, yaw_angle=np.where(time > 0.5, 0.05 * (time - 0.5), 0.0), position_x=20 * time, position_y=-0.1 * time)
+    run = braked_run(
+        manoeuvre,
+        4.0,
+        yaw_angle=np.where(time > 0.5, 0.05 * (time - 0.5), 0.0),
+        position_x=20 * time,
+        position_y=-0.1 * time,
+    )
     assert braking.braking_yaw_deviation(run).value == pytest.approx(0.375, rel=1e-3)
     assert braking.braking_yaw_deviation(run).note == "turns to the left"
     assert braking.braking_lateral_deviation(run).value == pytest.approx(0.75, rel=1e-3)
@@ -351,7 +398,12 @@ def test_braking_in_a_turn_against_the_same_circle(factor):
     manoeuvre = BrakingInTurn()
     time = np.arange(12001) * 1e-3
     speed = np.clip(manoeuvre.speed - 4.0 * (time - 5.0), 0.0, manoeuvre.speed)
-    run = braked_run(manoeuvre, 4.0, yaw_rate=speed / 100.0 * np.where(time > 5.0, factor, 1.0), lateral_acceleration=speed**2 / 100.0)
+    run = braked_run(
+        manoeuvre,
+        4.0,
+        yaw_rate=speed / 100.0 * np.where(time > 5.0, factor, 1.0),
+        lateral_acceleration=speed**2 / 100.0,
+    )
     assert braking.braking_yaw_ratio(run).value == pytest.approx(factor, rel=1e-3)
     assert not braking.braking_yaw_deviation(run).applies
 
@@ -367,7 +419,10 @@ def test_constant_acceleration():
     assert braking.longitudinal_acceleration_max(run).value == 4.0
     assert not braking.stopping_distance(run).applies, "the controller's brake is no braking"
     slow = made_up(manoeuvre, time, speed=1.0 * since)
-    assert braking.acceleration_time_100(slow).value is None and "reaches 41 km/h" in braking.acceleration_time_100(slow).note
+    assert (
+        braking.acceleration_time_100(slow).value is None
+        and "reaches 41 km/h" in braking.acceleration_time_100(slow).note
+    )
 
 
 # ---- course
@@ -392,7 +447,12 @@ def test_drift_in_the_wind():
     assert course.lateral_drift_2s(run).value == pytest.approx(1.6, rel=1e-6)
     assert course.lateral_drift_2s(run).note == "to the left"
     assert course.disturbance_yaw_rate_max(run).value == pytest.approx(0.02, rel=1e-5)
-    steered = made_up(manoeuvre.model_copy(update={"steered": True}), time, position_y=0.2 * np.sin(time), steering_wheel_angle=0.1 * since)
+    steered = made_up(
+        manoeuvre.model_copy(update={"steered": True}),
+        time,
+        position_y=0.2 * np.sin(time),
+        steering_wheel_angle=0.1 * since,
+    )
     assert not course.lateral_drift_1s(steered).applies
     assert course.disturbance_steering_max(steered).value == pytest.approx(0.45, rel=1e-3)
     assert course.path_deviation_max(steered).value == pytest.approx(0.2, rel=1e-3)
@@ -494,7 +554,9 @@ def test_roll_steer_and_roll_stiffness():
 
 
 @pytest.mark.parametrize("opposed", [False, True])
-@pytest.mark.parametrize(("test", "steer"), [("lateral_force", -3e-6), ("longitudinal_force", 2e-6), ("aligning_moment", 6e-5)])
+@pytest.mark.parametrize(
+    ("test", "steer"), [("lateral_force", -3e-6), ("longitudinal_force", 2e-6), ("aligning_moment", 6e-5)]
+)
 def test_compliance_from_straight_lines(test, steer, opposed):
     manoeuvre = SuspensionRig(test=test, opposed=opposed)
     time = np.arange(20001) * 1e-3
@@ -534,7 +596,18 @@ def test_on_an_oscillation_model_none_of_them_applies():
 
 
 @pytest.mark.parametrize(
-    "manoeuvre", [RampSteer(), StepSteer(), SineSteer(), SweptSteer(), LaneChange(), Crosswind(), Braking(), SplitMu(), Bump(duration=2.0)]
+    "manoeuvre",
+    [
+        RampSteer(),
+        StepSteer(),
+        SineSteer(),
+        SweptSteer(),
+        LaneChange(),
+        Crosswind(),
+        Braking(),
+        SplitMu(),
+        Bump(duration=2.0),
+    ],
 )
 def test_every_number_answers_or_says_why_not(manoeuvre):
     run = CAR.run(manoeuvre)
@@ -560,7 +633,9 @@ def test_a_step_ends_in_a_state_a_ramp_and_a_sine_do_not():
 
 def test_travel_left_of_each_axle():
     time = np.arange(3001) * 1e-3
-    run = made_up(RampSteer(), time, fr_suspension_deflection=0.05 * time / 3, rl_suspension_deflection=-0.07 * time / 3)
+    run = made_up(
+        RampSteer(), time, fr_suspension_deflection=0.05 * time / 3, rl_suspension_deflection=-0.07 * time / 3
+    )
     assert ride.travel_left_compression_front(run).value == pytest.approx(0.04)
     assert ride.travel_left_rebound_rear(run).value == pytest.approx(0.03)
     assert ride.travel_left_rebound_rear(run).note.startswith("rl")

@@ -161,7 +161,9 @@ def test_the_car_begins_in_static_equilibrium_of_its_loads():
 
 
 def test_a_speed_beyond_the_cars_is_refused_with_its_top_speed(saloon):
-    with pytest.raises(InputError, match=r"100 m/s \(360.0 km/h\) is not allowed; the car goes \d\d\.\d m/s \(2\d\d km/h\) at most"):
+    with pytest.raises(
+        InputError, match=r"100 m/s \(360.0 km/h\) is not allowed; the car goes \d\d\.\d m/s \(2\d\d km/h\) at most"
+    ):
         simulate(saloon, Driven(duration=1.0, speed=100.0))
 
 
@@ -183,7 +185,9 @@ def test_the_top_speed_is_where_power_meets_resistance(tmp_path):
 
     speeds = np.linspace(20, 110, 4001)
     reachable = [
-        v for v in speeds if v / radius * train.gears[-1] * train.final_drive < train.speed[-1] and surplus(v, train.gears[-1]) > 0
+        v
+        for v in speeds
+        if v / radius * train.gears[-1] * train.final_drive < train.speed[-1] and surplus(v, train.gears[-1]) > 0
     ]
     assert top == pytest.approx(max(reachable), rel=0.03)  # coupling and tyres slip
 
@@ -287,7 +291,9 @@ def test_side_wind_pushes_and_turns_the_car_as_its_coefficients_say(tmp_path):
     assert run["lateral_acceleration"][at] * PlainCar.mass == pytest.approx(pressure * 2.0 * beta, rel=0.1)
     turning = (run["yaw_rate"][at + 3] - run["yaw_rate"][at]) / 3e-3
     moment = pressure * (1.5572 + 1.5238) * 0.3 * beta
-    offset = 1.5572 - (1.5572 + 1.5238) / 2  # the side force acts amid the wheels, this far behind the centre of gravity's projection
+    offset = (
+        1.5572 - (1.5572 + 1.5238) / 2
+    )  # the side force acts amid the wheels, this far behind the centre of gravity's projection
     assert turning * PlainCar.yaw_inertia == pytest.approx(moment - pressure * 2.0 * beta * offset, rel=0.1)
 
 
@@ -326,7 +332,10 @@ def test_the_driver_follows_a_circle_and_a_lane_change(saloon):
 def test_a_car_that_falls_over_says_so(saloon):
     road = Road(patches=(Patch(-1e3, 1e3, -1e3, 1e3, 3.0),))
     with pytest.raises(SimulationError, match="the car fell over at t = "):
-        simulate(saloon, Drive(duration=12.0, speed=25.0, ground=road, inputs={"steering_wheel_angle": [(0.5, 0.0), (2.0, 4.0)]}))
+        simulate(
+            saloon,
+            Drive(duration=12.0, speed=25.0, ground=road, inputs={"steering_wheel_angle": [(0.5, 0.0), (2.0, 4.0)]}),
+        )
 
 
 # ---- rig
@@ -370,7 +379,10 @@ def test_forces_on_the_rig_lift_the_suspension_by_virtual_work(rig):
     kinematics = load_vehicle("s_class").front.kinematics
     slope = np.gradient(kinematics.path("longitudinal"), kinematics.travel)[list(kinematics.travel).index(0.0)]
     load = run["fl_wheel_load"][-1] - run["fl_wheel_load"][0]
-    spring = sum(run[f"fl_{part}_force"][-1] - run[f"fl_{part}_force"][0] for part in ("spring", "stop", "damper", "friction", "bar"))
+    spring = sum(
+        run[f"fl_{part}_force"][-1] - run[f"fl_{part}_force"][0]
+        for part in ("spring", "stop", "damper", "friction", "bar")
+    )
     assert load - spring == pytest.approx(2000.0 * slope, rel=0.03)
 
 
@@ -412,13 +424,18 @@ def test_signals_have_unique_names():
 
 
 def test_drive_pushes_along_the_wheel_centres_path_and_brakes_along_the_patchs(saloon):
-    """Work of the forces over the travel: the rear springs' force changes by ``F x'``, x' that of the centre or of the patch.
+    """Work of the forces over the travel: the rear springs' force changes by ``F x'``, x' that of the centre or of the
+    patch.
 
-    The wheel's load less its suspension's forces is what the path carries; weight and inertia of the wheel are in it from the start.
+    The wheel's load less its suspension's forces is what the path carries; weight and inertia of the wheel are in it
+    from the start.
     """
     kinematics = load_vehicle("s_class").rear.kinematics
     origin = list(kinematics.travel).index(0.0)
-    slopes = {name: np.gradient(kinematics.path(name), kinematics.travel)[origin] for name in ("longitudinal", "longitudinal_centre")}
+    slopes = {
+        name: np.gradient(kinematics.path(name), kinematics.travel)[origin]
+        for name in ("longitudinal", "longitudinal_centre")
+    }
     assert abs(slopes["longitudinal"]) > 2 * abs(slopes["longitudinal_centre"]) > 0.05
     turn = (slopes["longitudinal_centre"] - slopes["longitudinal"]) / 0.316
     off = {"speed_control": [(0.0, 1.0), (0.5, 1.0), (0.501, 0.0)]}
@@ -426,7 +443,8 @@ def test_drive_pushes_along_the_wheel_centres_path_and_brakes_along_the_patchs(s
         run = simulate(saloon, Drive(duration=2.5, speed=15.0, inputs={pedal: [(0.5, 0.0), (0.8, value)], **off}))
         parts = sum(run[f"rl_{part}_force"] for part in ("spring", "stop", "damper", "friction", "bar"))
         carried, force, torque = (
-            each[-300:].mean() - each[0] for each in (run["rl_wheel_load"] - parts, run["rl_longitudinal_force"], run["rl_drive_torque"])
+            each[-300:].mean() - each[0]
+            for each in (run["rl_wheel_load"] - parts, run["rl_longitudinal_force"], run["rl_drive_torque"])
         )
         expected = -slopes["longitudinal"] * force - turn * torque
         assert abs(force) > 500.0
@@ -470,7 +488,9 @@ def test_the_car_drives_on_every_kind_of_tyre(tyre, monkeypatch):
     monkeypatch.setitem(CONTACT_TYRES, "saturating_of_the_tests", SaturatingTyre)  # taken out again afterwards
     register_contact_tyre(SaturatingTyre)
     car = load_vehicle("bmw_320i", overrides={"front.handling_tyre": tyre, "rear.handling_tyre": tyre})
-    run = simulate(build(car, HANDLING), Drive(duration=4.0, speed=20.0, inputs={"steering_wheel_angle": [(0.5, 0.0), (0.8, 1.0)]}))
+    run = simulate(
+        build(car, HANDLING), Drive(duration=4.0, speed=20.0, inputs={"steering_wheel_angle": [(0.5, 0.0), (0.8, 1.0)]})
+    )
     assert np.ptp(run["speed"][:400]) < 1e-7  # trimmed
     assert 3.0 < run["lateral_acceleration"][-1] < 8.5
     assert run["lateral_acceleration"][-1] == pytest.approx(run["speed"][-1] * run["yaw_rate"][-1], rel=0.05)

@@ -38,7 +38,11 @@ SOFT, STIFF = Bicycle(front_share=0.8, roll_gradient=0.016), Bicycle()
 
 def lines(svg, stroke):
     paths = [path for path in ElementTree.fromstring(svg).iter(f"{SVG}path") if path.get("clip-path")]
-    return [path.get("d", "") for path in paths if f"stroke: {stroke}" in path.get("style", "") and "fill: none" in path.get("style", "")]
+    return [
+        path.get("d", "")
+        for path in paths
+        if f"stroke: {stroke}" in path.get("style", "") and "fill: none" in path.get("style", "")
+    ]
 
 
 def texts(svg):
@@ -57,7 +61,12 @@ def plots(ramp):
 
 
 def test_a_slowly_tightened_turn_is_drawn_over_lateral_acceleration(plots):
-    assert list(plots) == ["wheel_lift_handling", "self_steering_handling", "wheel_travel_handling", "over_time_handling"]
+    assert list(plots) == [
+        "wheel_lift_handling",
+        "self_steering_handling",
+        "wheel_travel_handling",
+        "over_time_handling",
+    ]
     for name, panels in (("wheel_lift_handling", 3), ("wheel_travel_handling", 4)):
         assert "lateral acceleration [m/s²]" in texts(plots[name])
         for order in range(2):
@@ -68,7 +77,9 @@ def test_the_wheel_that_lifts_is_marked_with_its_lateral_acceleration(ramp, plot
     acceleration = ramp.configurations[0].numbers["wheel_lift_acceleration"]
     assert acceleration.note == "fl" and f"lifts at {acceleration.value:.1f}" in texts(plots["wheel_lift_handling"])
     assert f"stroke: {LIFTED}" in plots["wheel_lift_handling"]
-    assert len([text for text in texts(plots["wheel_lift_handling"]) if text.startswith("lifts")]) == 1, "the stiffer car's stays down"
+    assert len([text for text in texts(plots["wheel_lift_handling"]) if text.startswith("lifts")]) == 1, (
+        "the stiffer car's stays down"
+    )
     quiet = handling_plots(compared(STIFF.run(RampSteer(limit="40 deg"))))
     assert f"stroke: {LIFTED}" not in quiet["wheel_lift_handling"]
 
@@ -96,7 +107,9 @@ def test_the_figures_of_the_step_are_those_of_the_thesis():
 def test_a_sweep_gives_gain_phase_and_coherence_of_each_quantity():
     sweep = compared(SOFT.run(SweptSteer()), STIFF.run(SweptSteer()))
     plots = handling_plots(sweep)
-    assert [name for name in plots if "frequency" in name] == [f"{quantity}_over_frequency_handling" for quantity in STEERED]
+    assert [name for name in plots if "frequency" in name] == [
+        f"{quantity}_over_frequency_handling" for quantity in STEERED
+    ]
     svg = plots["side_slip_angle_over_frequency_handling"]
     assert {"gain [°/°]", "phase [°]", "coherence", "frequency [Hz]"} <= set(texts(svg))
     assert [len(lines(svg, COLOURS[order])) for order in range(2)] == [3, 3]
@@ -109,7 +122,14 @@ def test_a_lane_change_shows_cones_and_corners():
     time = np.arange(8001) * 1e-3
     x = manoeuvre.speed * time - 1.5
     y = manoeuvre.path(x)
-    run = made_up(manoeuvre, time, position_x=x, position_y=y, yaw_angle=np.arctan(np.gradient(y, x)), lateral_acceleration=np.sin(time))
+    run = made_up(
+        manoeuvre,
+        time,
+        position_x=x,
+        position_y=y,
+        yaw_angle=np.arctan(np.gradient(y, x)),
+        lateral_acceleration=np.sin(time),
+    )
     svg = handling_plots(compared(run))["course_handling"]
     assert len(lines(svg, COLOURS[0])) == 5, "four corners and the centre of gravity"
     assert len(re.findall(r"<use ", svg)) >= 18
@@ -167,7 +187,13 @@ def test_same_input_gives_the_same_bytes(ramp, plots):
 def test_side_slip_at_a_standstill_is_not_drawn():
     time = np.arange(3001) * 1e-3
     wild = np.where(time > 2.0, np.pi, 0.05 * time)
-    run = made_up(BrakingInTurn(), time, speed=np.maximum(10 - 6 * time, 0.0), rear_side_slip_angle=wild, lateral_acceleration=time)
+    run = made_up(
+        BrakingInTurn(),
+        time,
+        speed=np.maximum(10 - 6 * time, 0.0),
+        rear_side_slip_angle=wild,
+        lateral_acceleration=time,
+    )
     svg = handling_plots(compared(run))["over_time_handling"]
     numbers = [float(text.replace("−", "-")) for text in texts(svg) if re.fullmatch(r"[−\d.]+", text)]
     assert max(numbers) < 100, "no 180°"

@@ -53,7 +53,9 @@ def test_rigid_wheel_sees_the_rate_of_the_road(linear_car):
     frequency = np.geomspace(0.1, 30, 40)
     s = 2j * np.pi * frequency
     expected = (1200 * s + 27486.45347285782) / (483.5 * s**2 + 1200 * s + 27486.45347285782)
-    np.testing.assert_allclose(linear.transfer("body_displacement", {"road_height": 1.0}, frequency), expected, rtol=1e-6)
+    np.testing.assert_allclose(
+        linear.transfer("body_displacement", {"road_height": 1.0}, frequency), expected, rtol=1e-6
+    )
 
 
 def test_sweep_agrees_with_the_transfer_function(linear_car):

@@ -18,9 +18,8 @@ from susp_mj.elements.tyres import slip
 from susp_mj.elements.tyres.tir import load_tyre
 from vehicles.vehicle import FOLDER
 
-# Evaluated elsewhere from the same coefficients (pure slip by two programs), zero camber, ISO-W, no combined slip: LFZO,
-# F_z [N], kappa, alpha [rad], F_x0, F_y0, F_x, F_y [N], K_x [N], K_y [N/rad].
-# fmt: off
+# Evaluated elsewhere from the same coefficients (pure slip by two programs), zero camber, ISO-W, no combined slip:
+# LFZO, F_z [N], kappa, alpha [rad], F_x0, F_y0, F_x, F_y [N], K_x [N], K_y [N/rad]. fmt: off
 POINTS = [
     (1.0, 4850, 0, -0.15, 132.948117418, 5216.22213658, 132.948117418, 5216.22213658, 108169.55, -85018.987047),
     (1.0, 4850, 0, -0.02, 132.948117418, 1611.06178811, 132.948117418, 1611.06178811, 108169.55, -85018.987047),
@@ -35,7 +34,18 @@ POINTS = [
     (0.81, 4850, 0, -0.02, 152.046957024, 1466.48634559, 152.046957024, 1466.48634559, 114283.475961, -76958.9939845),
     (0.81, 4850, 0, 0.02, 152.046957024, -1506.65304588, 152.046957024, -1506.65304588, 114283.475961, -76958.9939845),
     (0.81, 4850, 0, 0.15, 152.046957024, -4678.80097697, 152.046957024, -4678.80097697, 114283.475961, -76958.9939845),
-    (0.81, 4850, -0.05, 0, -4190.78565722, -37.7665031663, -4190.78565722, -37.7665031663, 114283.475961, -76958.9939845),
+    (
+        0.81,
+        4850,
+        -0.05,
+        0,
+        -4190.78565722,
+        -37.7665031663,
+        -4190.78565722,
+        -37.7665031663,
+        114283.475961,
+        -76958.9939845,
+    ),
     (0.81, 4850, 0.05, 0, 4311.90872183, -37.7665031663, 4311.90872183, -37.7665031663, 114283.475961, -76958.9939845),
     (0.81, 1500, 0, 0.04, 27.8283891811, -1064.94260382, 27.8283891811, -1064.94260382, 28938.1375681, -31706.0593448),
     (0.81, 7000, 0, 0.04, 293.735411792, -3101.99670146, 293.735411792, -3101.99670146, 187502.787271, -85535.6501655),
@@ -50,12 +60,17 @@ ODD = {
     "overturning": ("QSX1",),
 }
 """Coefficients that change sign when a tyre is mirrored."""
-SIDELESS = {"longitudinal": ("PHX1", "PHX2", "PVX1", "PVX2", "PEX4"), **{k: v for k, v in ODD.items() if k != "longitudinal"}}
+SIDELESS = {
+    "longitudinal": ("PHX1", "PHX2", "PVX1", "PVX2", "PEX4"),
+    **{k: v for k, v in ODD.items() if k != "longitudinal"},
+}
 
 
 def changed(tyre, **sections):
     """The tyre with coefficients of its sections replaced."""
-    return tyre.model_copy(update={name: getattr(tyre, name).model_copy(update=values) for name, values in sections.items()})
+    return tyre.model_copy(
+        update={name: getattr(tyre, name).model_copy(update=values) for name, values in sections.items()}
+    )
 
 
 FULL = changed(
@@ -108,15 +123,21 @@ def test_parameters_are_in_the_order_of_their_indices():
 
 @given(k=slips, a=angles, c=cambers, f=loads)
 def test_pure_slip_is_combined_slip_without_the_other(k, a, c, f):
-    assert law.longitudinal_force(k, 0.0, c, f, FULL_P) == pytest.approx(law.pure_longitudinal_force(k, c, f, FULL_P), rel=1e-13)
+    assert law.longitudinal_force(k, 0.0, c, f, FULL_P) == pytest.approx(
+        law.pure_longitudinal_force(k, c, f, FULL_P), rel=1e-13
+    )
     assert law.lateral_force(0.0, a, c, f, FULL_P) == pytest.approx(law.pure_lateral_force(a, c, f, FULL_P), rel=1e-13)
 
 
 @pytest.mark.parametrize("load", [50.0, 1500.0, 4850.0, 9000.0])
 def test_slopes_at_the_origin_are_the_stiffnesses(load):
     h = 1e-6
-    along = (law.pure_longitudinal_force(h, 0, load, SYMMETRIC_P) - law.pure_longitudinal_force(-h, 0, load, SYMMETRIC_P)) / (2 * h)
-    across = (law.pure_lateral_force(h, 0, load, SYMMETRIC_P) - law.pure_lateral_force(-h, 0, load, SYMMETRIC_P)) / (2 * h)
+    along = (
+        law.pure_longitudinal_force(h, 0, load, SYMMETRIC_P) - law.pure_longitudinal_force(-h, 0, load, SYMMETRIC_P)
+    ) / (2 * h)
+    across = (law.pure_lateral_force(h, 0, load, SYMMETRIC_P) - law.pure_lateral_force(-h, 0, load, SYMMETRIC_P)) / (
+        2 * h
+    )
     assert along == pytest.approx(law.longitudinal_stiffness(load, SYMMETRIC_P), rel=1e-6)
     assert across == pytest.approx(law.cornering_stiffness(0.0, load, SYMMETRIC_P), rel=1e-6)
 
@@ -124,7 +145,9 @@ def test_slopes_at_the_origin_are_the_stiffnesses(load):
 @given(k=slips, a=angles, c=cambers, f=loads)
 def test_mirrored_mounting_is_mirrored_coefficients(k, a, c, f):
     """A tyre measured on the left and mounted on the right is the tyre whose odd coefficients have the other sign."""
-    flipped = {section: {name: -getattr(getattr(FULL, section), name) for name in names} for section, names in ODD.items()}
+    flipped = {
+        section: {name: -getattr(getattr(FULL, section), name) for name in names} for section, names in ODD.items()
+    }
     right, coefficients = FULL.mounted("RIGHT").parameters(), changed(FULL, **flipped).parameters()
     for name, force in FORCES.items():
         value = force(k, a, c, f, right)
@@ -150,7 +173,9 @@ def test_friction_bounds_the_force(load):
             for a in np.linspace(-1.5, 1.5, 121)
         ]
     )
-    most = load * np.array([law.longitudinal_friction(0, load, SYMMETRIC_P), law.lateral_friction(0, load, SYMMETRIC_P)])
+    most = load * np.array(
+        [law.longitudinal_friction(0, load, SYMMETRIC_P), law.lateral_friction(0, load, SYMMETRIC_P)]
+    )
     share = np.abs(forces) / most
     assert share.max(axis=0) == pytest.approx(1.0, abs=0.01)
     assert share.max() <= 1.0 + 1e-12
@@ -210,7 +235,8 @@ def test_inputs_beyond_the_valid_range_are_held():
 
 @given(a=st.floats(1e-4, 0.08), f=st.floats(500, 10000))
 def test_aligning_moment_turns_the_wheel_back(a, f):
-    """A tyre without shifts turns towards where it moves; rolling backwards the trail changes sign; at standstill it is gone."""
+    """A tyre without shifts turns towards where it moves; rolling backwards the trail changes sign; at standstill it is
+    gone."""
     moment = law.aligning_moment(0.0, a, 0.0, f, math.cos(a), SYMMETRIC_P)
     assert moment > 0.0
     assert law.aligning_moment(0.0, -a, 0.0, f, math.cos(a), SYMMETRIC_P) == pytest.approx(-moment, rel=1e-12)
@@ -336,14 +362,19 @@ def test_friction_of_the_road_leaves_the_stiffness():
     """Halved, it halves the peak; at vanishing slip the force is the same. The stiffness is that of F_y0 over alpha."""
     p = SYMMETRIC_P
     for grip in (1.0, 0.5, 0.1, 0.01):
-        slope = (SYMMETRIC.evaluate(0, 1e-7, 0, 4000, friction=grip)[1] - SYMMETRIC.evaluate(0, -1e-7, 0, 4000, friction=grip)[1]) / 2e-7
+        slope = (
+            SYMMETRIC.evaluate(0, 1e-7, 0, 4000, friction=grip)[1]
+            - SYMMETRIC.evaluate(0, -1e-7, 0, 4000, friction=grip)[1]
+        ) / 2e-7
         assert slope == pytest.approx(law.cornering_stiffness(0.0, 4000, p), rel=1e-6)
         peak = max(abs(SYMMETRIC.evaluate(0, a, 0, 4000, friction=grip)[1]) for a in np.geomspace(1e-4, 10, 2000))
         assert peak == pytest.approx(grip * 4000 * law.lateral_friction(0, 4000, p), rel=1e-3)
 
 
 def test_own_arc_tangent_and_sine():
-    x = np.concatenate([np.linspace(-6, 6, 4001), np.geomspace(1e-300, 1e300, 4001), -np.geomspace(1e-12, 1e12, 101)]).tolist()
+    x = np.concatenate(
+        [np.linspace(-6, 6, 4001), np.geomspace(1e-300, 1e300, 4001), -np.geomspace(1e-12, 1e12, 101)]
+    ).tolist()
     np.testing.assert_allclose([law.arctangent(each) for each in x], np.arctan(x), rtol=4e-16)
     x = np.linspace(-15, 15, 4001).tolist()
     np.testing.assert_allclose([law.sine(each) for each in x], np.sin(x), rtol=1e-15, atol=2e-15)

@@ -1,4 +1,5 @@
-"""The Magic Formula 6.1: a second implementation as the equations stand in the source, MF 5.2 as a special case, what any tyre must do."""
+"""The Magic Formula 6.1: a second implementation as the equations stand in the source, MF 5.2 as a special case, what
+any tyre must do."""
 
 from __future__ import annotations
 
@@ -23,7 +24,17 @@ from vehicles.vehicle import FOLDER
 
 TYRE = load_tyre(FOLDER / "tyres" / "mf61_205_60R15.tir")
 assert isinstance(TYRE, MagicFormula61Tyre)
-SECTIONS = ("vertical", "structure", "longitudinal", "lateral", "aligning", "overturning", "rolling", "scaling", "operation")
+SECTIONS = (
+    "vertical",
+    "structure",
+    "longitudinal",
+    "lateral",
+    "aligning",
+    "overturning",
+    "rolling",
+    "scaling",
+    "operation",
+)
 ODD = {
     "longitudinal": ("RHX1",),
     "lateral": ("PEY3", "PHY1", "PHY2", "PVY1", "PVY2", "RBY3", "RVY1", "RVY2"),
@@ -35,16 +46,21 @@ ODD = {
 
 def changed(tyre, **sections):
     """The tyre with coefficients of its sections replaced."""
-    return tyre.model_copy(update={name: getattr(tyre, name).model_copy(update=values) for name, values in sections.items()})
+    return tyre.model_copy(
+        update={name: getattr(tyre, name).model_copy(update=values) for name, values in sections.items()}
+    )
 
 
 def scattered(seed=11):
-    """The shipped tyre, every coefficient of it moved and the zeros made nonzero, every scale factor and the pressure too."""
+    """The shipped tyre, every coefficient of it moved and the zeros made nonzero, every scale factor and the pressure
+    too."""
     rng = np.random.default_rng(seed)
     new = {}
     for name in SECTIONS[2:-1]:
         values = getattr(TYRE, name).model_dump()
-        new[name] = {key: value * rng.uniform(0.9, 1.1) if value else rng.uniform(0.002, 0.02) for key, value in values.items()}
+        new[name] = {
+            key: value * rng.uniform(0.9, 1.1) if value else rng.uniform(0.002, 0.02) for key, value in values.items()
+        }
     new["rolling"]["QSY7"] = 0.8
     new["structure"] = {"PCFX2": 0.02, "PCFX3": -0.1, "PCFY2": -0.03}
     return changed(TYRE, **new, operation={"INFLPRES": 2.5e5})
@@ -61,10 +77,12 @@ loads, speeds = st.floats(1.0, 9000.0), st.floats(-60.0, 60.0)
 
 
 def by_the_book(tyre, kappa, alpha, camber, load, rolling, lateral, grip=1.0):
-    """Equations 4.E1 to 4.E78 of [pacejka2012] term by term, in arc tangents and cosines, on the side of the measurement.
+    """Equations 4.E1 to 4.E78 of [pacejka2012] term by term, in arc tangents and cosines, on the side of the
+    measurement.
 
-    Differences: a single friction scale for peaks and shifts (4.E8 with A_mu = 1), trail and its stiffness factor with the
-    signed camber, M_x and M_y with the coefficients of [besselink2010], the trail over the nominal load without LFZO.
+    Differences: a single friction scale for peaks and shifts (4.E8 with A_mu = 1), trail and its stiffness factor with
+    the signed camber, M_x and M_y with the coefficients of [besselink2010], the trail over the nominal load without
+    LFZO.
     """
     c = SimpleNamespace(**{k: v for name in SECTIONS for k, v in getattr(tyre, name).model_dump().items()})
     sin, cos, atan, sign = math.sin, math.cos, math.atan, lambda x: math.copysign(1.0, x)
@@ -126,7 +144,9 @@ def by_the_book(tyre, kappa, alpha, camber, load, rolling, lateral, grip=1.0):
     a_t_eq, a_r_eq = (math.sqrt(x**2 + (ratio * kappa) ** 2) * sign(x) for x in (a_t, a_r))
     b_t = (c.QBZ1 + c.QBZ2 * dfz + c.QBZ3 * dfz**2) * (1 + c.QBZ4 * g + c.QBZ5 * abs(g)) * c.LKY / lmuy
     d_t = load * r0 / fz0 * (c.QDZ1 + c.QDZ2 * dfz) * (1 - c.PPZ1 * dpi) * (1 + c.QDZ3 * g + c.QDZ4 * g**2) * c.LTR
-    e_t = (c.QEZ1 + c.QEZ2 * dfz + c.QEZ3 * dfz**2) * (1 + (c.QEZ4 + c.QEZ5 * g) * 2 / math.pi * atan(b_t * c.QCZ1 * a_t))
+    e_t = (c.QEZ1 + c.QEZ2 * dfz + c.QEZ3 * dfz**2) * (
+        1 + (c.QEZ4 + c.QEZ5 * g) * 2 / math.pi * atan(b_t * c.QCZ1 * a_t)
+    )
     trail = d_t * cos(c.QCZ1 * shape(b_t, e_t, a_t_eq)) * cos_alpha
     by_camber = (c.QDZ8 + c.QDZ9 * dfz) * (1 + c.PPZ2 * dpi) + (c.QDZ10 + c.QDZ11 * dfz) * abs(g)
     d_r = load * r0 * ((c.QDZ6 + c.QDZ7 * dfz) * c.LRES + by_camber * g * c.LKZC) * lmuy * cos_alpha
@@ -143,7 +163,9 @@ def by_the_book(tyre, kappa, alpha, camber, load, rolling, lateral, grip=1.0):
     my *= -r0 * fz0 * c.LMY * share**c.QSY7 * (c.INFLPRES / c.NOMPRES) ** c.QSY8 * cos_alpha
     carcass_x = c.LONGITUDINAL_STIFFNESS * (1 + c.PCFX1 * dfz + c.PCFX2 * dfz**2) * (1 + c.PCFX3 * dpi)
     carcass_y = c.LATERAL_STIFFNESS * (1 + c.PCFY1 * dfz + c.PCFY2 * dfz**2) * (1 + c.PCFY3 * dpi)
-    radius = r0 * (c.Q_RE0 + c.Q_V1 * v**2) - fz0 / tyre.vertical_stiffness * (c.DREFF * atan(c.BREFF * share) + c.FREFF * share)
+    radius = r0 * (c.Q_RE0 + c.Q_V1 * v**2) - fz0 / tyre.vertical_stiffness * (
+        c.DREFF * atan(c.BREFF * share) + c.FREFF * share
+    )
     return fx, fy, mx, my, mz, max(0.05, k_x / carcass_x), max(0.05, abs(k_y) / carcass_y), radius
 
 
@@ -177,13 +199,21 @@ def reduced():
     Where alpha and tan alpha are told apart, and the lean gamma and its sine, the two differ.
     """
     tyre = load_tyre(FOLDER / "tyres" / "pac2002_245_40R18.tir")
-    old = changed(tyre, lateral={"PHY3": 0.0, "PVY3": 0.0, "PVY4": 0.0, "RVY1": 0.05, "RVY4": 30.0, "RVY5": 1.9, "RVY6": 20.0})
+    old = changed(
+        tyre, lateral={"PHY3": 0.0, "PVY3": 0.0, "PVY4": 0.0, "RVY1": 0.05, "RVY4": 30.0, "RVY5": 1.9, "RVY6": 20.0}
+    )
     data = old.model_dump()
-    keep = {name: set(MagicFormula61Tyre.model_fields[name].annotation.model_fields) for name in ("longitudinal", "lateral", "aligning")}
+    keep = {
+        name: set(MagicFormula61Tyre.model_fields[name].annotation.model_fields)
+        for name in ("longitudinal", "lateral", "aligning")
+    }
     sections = {name: {key: value for key, value in data[name].items() if key in keys} for name, keys in keep.items()}
     sections["lateral"] |= {"PKY4": 2.0, "PKY6": 0.0, "PKY7": 0.0}
     new = {
-        **{key: data[key] for key in ("radius", "vertical_stiffness", "vertical_damping", "model", "ranges", "overturning")},
+        **{
+            key: data[key]
+            for key in ("radius", "vertical_stiffness", "vertical_damping", "model", "ranges", "overturning")
+        },
         **sections,
         "vertical": data["vertical"],
         "rolling": {key: value for key, value in data["rolling"].items() if value},
@@ -221,7 +251,9 @@ def test_slope_at_zero_and_peak(load):
     along = (SYMMETRIC.evaluate(h, 0, 0, load)[0] - SYMMETRIC.evaluate(-h, 0, 0, load)[0]) / (2 * h)
     across = (SYMMETRIC.evaluate(0, h, 0, load)[1] - SYMMETRIC.evaluate(0, -h, 0, load)[1]) / (2 * h)
     if at.longitudinal_relaxation > slip.SMALLEST_RELAXATION:
-        assert along == pytest.approx(at.longitudinal_relaxation * s.LONGITUDINAL_STIFFNESS * (1 + s.PCFX1 * dfz), rel=1e-6)
+        assert along == pytest.approx(
+            at.longitudinal_relaxation * s.LONGITUDINAL_STIFFNESS * (1 + s.PCFX1 * dfz), rel=1e-6
+        )
     if at.lateral_relaxation > slip.SMALLEST_RELAXATION:
         assert -across == pytest.approx(at.lateral_relaxation * s.LATERAL_STIFFNESS * (1 + s.PCFY1 * dfz), rel=1e-6)
     most = max(SYMMETRIC.evaluate(k, 0, 0, load)[0] for k in np.linspace(0, 1.5, 3001))
@@ -261,7 +293,9 @@ def test_vertical_stiffness_is_the_slope_at_the_nominal_load():
 
 @given(k=slips, a=angles, c=cambers, f=loads, v=speeds)
 def test_mirrored_mounting_is_mirrored_coefficients(k, a, c, f, v):
-    flipped = {section: {name: -getattr(getattr(FULL, section), name) for name in names} for section, names in ODD.items()}
+    flipped = {
+        section: {name: -getattr(getattr(FULL, section), name) for name in names} for section, names in ODD.items()
+    }
     right, coefficients = FULL.mounted("RIGHT"), changed(FULL, **flipped)
     for side, sign in ((coefficients, 1), (FULL, -1)):
         found, there = right.evaluate(k, math.tan(a), c, f, v), side.evaluate(k, sign * math.tan(a), sign * c, f, v)
@@ -282,7 +316,11 @@ def test_sliding_dissipates(v, along, across, f):
 @pytest.mark.parametrize("load", [500.0, 2000.0, 4000.0, 8000.0])
 def test_forces_stay_near_the_friction_ellipse(load):
     forces = np.array(
-        [SYMMETRIC.evaluate(k, a, 0, load)[:2] for k in np.linspace(-1.4, 1.4, 71) for a in np.tan(np.linspace(-1.4, 1.4, 71))]
+        [
+            SYMMETRIC.evaluate(k, a, 0, load)[:2]
+            for k in np.linspace(-1.4, 1.4, 71)
+            for a in np.tan(np.linspace(-1.4, 1.4, 71))
+        ]
     )
     dfz = load / 4000 - 1
     share = np.abs(forces) / (load * np.array([1.0422 - 0.08285 * dfz, 0.8785 - 0.06452 * dfz]))

@@ -91,7 +91,12 @@ def test_needs_are_checked(kind):
 @pytest.mark.parametrize("kind", MANOEUVRES)
 @pytest.mark.parametrize(
     ("fields", "key"),
-    [({"duration": 0}, "duration"), ({"duration": "3 m"}, "duration"), ({"duratoin": 3}, "duratoin"), ({"kind": "other"}, "kind")],
+    [
+        ({"duration": 0}, "duration"),
+        ({"duration": "3 m"}, "duration"),
+        ({"duratoin": 3}, "duratoin"),
+        ({"kind": "other"}, "kind"),
+    ],
 )
 def test_mistakes_in_a_case_file(kind, fields, key):
     with pytest.raises(InputError) as caught:
@@ -181,7 +186,9 @@ def test_sweep_frequency_and_phase():
 @pytest.mark.parametrize("constant_speed", [True, False])
 def test_sweep_amplitude(constant_speed):
     """Constant, or falling so that the road's speed amplitude stays."""
-    sweep = VerticalSweep(amplitude=0.01, start_frequency=0.5, end_frequency=16.0, duration=20.0, constant_speed=constant_speed)
+    sweep = VerticalSweep(
+        amplitude=0.01, start_frequency=0.5, end_frequency=16.0, duration=20.0, constant_speed=constant_speed
+    )
     time = np.linspace(0, 20, 400001)
     road, rate = sweep.drive(WHEEL, time)
     for begin, end in ((3.0, 8.0), (15.0, 19.0)):

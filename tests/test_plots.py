@@ -45,7 +45,11 @@ def drawn(bump):
 def lines(svg: str, stroke: str) -> list[str]:
     """Path data of the lines with a stroke colour; the samples of the legend, which nothing clips, are left out."""
     paths = [path for path in ElementTree.fromstring(svg).iter(f"{SVG}path") if path.get("clip-path")]
-    return [path.get("d", "") for path in paths if f"stroke: {stroke}" in path.get("style", "") and "fill: none" in path.get("style", "")]
+    return [
+        path.get("d", "")
+        for path in paths
+        if f"stroke: {stroke}" in path.get("style", "") and "fill: none" in path.get("style", "")
+    ]
 
 
 def texts(svg: str) -> list[str]:
@@ -124,7 +128,9 @@ def test_four_wheels_become_four_panels(bump):
 def test_a_sweep_gives_amplifications_and_stays_small():
     sweep = compare(VerticalSweep(duration=30.0), names={"linear": "linear", "soft_linear": "soft"})
     plots = amplification_plots(sweep)
-    assert list(plots) == [f"{each}_amplification" for each in SWEEP_QUANTITIES if each not in ("pitch_angle", "roll_angle")]
+    assert list(plots) == [
+        f"{each}_amplification" for each in SWEEP_QUANTITIES if each not in ("pitch_angle", "roll_angle")
+    ]
     for svg in plots.values():
         assert all(len(lines(svg, COLOURS[order])) == 1 for order in range(2))
         assert "frequency [Hz]" in texts(svg)
@@ -142,7 +148,11 @@ def test_any_name_of_a_configuration_can_be_drawn(bump, name, recwarn):
     svg = time_plots(one)["body_acceleration"]
     shown = texts(svg)
     assert not [str(each.message) for each in recwarn]
-    assert any(text and (text in name or text.rstrip("…") in name) for text in shown) or not name.strip() or not name.isprintable()
+    assert (
+        any(text and (text in name or text.rstrip("…") in name) for text in shown)
+        or not name.strip()
+        or not name.isprintable()
+    )
 
 
 def test_characteristic_follows_its_spring_and_damper():
@@ -152,7 +162,9 @@ def test_characteristic_follows_its_spring_and_damper():
     assert curve.stops == (-0.1, 0.1) and curve.preload == pytest.approx(4743.0)
     assert curve.deflection[0] < -0.1 and curve.deflection[-1] > 0.1 and 0.0 in curve.deflection
     assert np.all(np.diff(curve.spring_force) > 0)
-    assert curve.spring_force[-1] - curve.spring_force[inside][-1] == pytest.approx(1e7 * (curve.deflection[-1] - 0.1), rel=1e-9)
+    assert curve.spring_force[-1] - curve.spring_force[inside][-1] == pytest.approx(
+        1e7 * (curve.deflection[-1] - 0.1), rel=1e-9
+    )
     frequency = np.sqrt(curve.spring_rate[inside] * GRAVITY / curve.spring_force[inside]) / (2 * np.pi)
     assert np.allclose(curve.spring_frequency[inside], frequency) and np.allclose(frequency, 1.2, atol=1e-4)
     at = dict(zip(curve.speed.round(2).tolist(), curve.damper_force.tolist(), strict=True))

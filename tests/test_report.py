@@ -31,7 +31,11 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-CRITERIA = {"body_acceleration_max": Criterion(None, 8.0), "wheel_load_min": Criterion(500.0, None), "overshoot": Criterion(0.0, 0.3)}
+CRITERIA = {
+    "body_acceleration_max": Criterion(None, 8.0),
+    "wheel_load_min": Criterion(500.0, None),
+    "overshoot": Criterion(0.0, 0.3),
+}
 CLAIMS = (
     Claim("Peak of the linear suspension, chapter 3", "11.24 ± 0.05 m/s²", "11.24 m/s²", True),
     Claim("The non-linear one halves it", "5.6 m/s²", "7.89 m/s²", False),
@@ -56,8 +60,12 @@ def report(comparison, plots, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def sheet(tmp_path_factory):
-    sets = {name: [characteristic("rear axle", load_vehicle("chapter3", key).axle("rear"))] for key, name in SETS.items()}
-    return write_sheet(f"Sheet {TITLE}", sets, tmp_path_factory.mktemp("sheet") / "sheet.html", {"vehicle": "chapter3 <i>"})
+    sets = {
+        name: [characteristic("rear axle", load_vehicle("chapter3", key).axle("rear"))] for key, name in SETS.items()
+    }
+    return write_sheet(
+        f"Sheet {TITLE}", sets, tmp_path_factory.mktemp("sheet") / "sheet.html", {"vehicle": "chapter3 <i>"}
+    )
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +75,8 @@ def browser():
     program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     if program is None:
         pytest.fail(
-            "no chromium, chromium-browser or google-chrome on the PATH: the report cannot be tested in a real browser; install one"
+            "no chromium, chromium-browser or google-chrome on the PATH: the report cannot be tested in a real "
+            "browser; install one"
         )
     with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=program, args=ARGUMENTS)
@@ -133,14 +142,20 @@ def test_report_says_what_failed_and_what_holds(report, visit):
     verdict = page.locator(".verdict").inner_text()
     assert "1 of 2 published statements holds" in verdict and "Not reproduced" in verdict
     assert "linear fails 3 of 3; non-linear fails 1 of 3" in verdict
-    rows = dict(page.evaluate("[...document.querySelectorAll('tbody tr')].map(row => [row.firstElementChild.innerText, row.innerText])"))
+    rows = dict(
+        page.evaluate(
+            "[...document.querySelectorAll('tbody tr')].map(row => [row.firstElementChild.innerText, row.innerText])"
+        )
+    )
     assert "✓ holds" in rows["Peak of the linear suspension, chapter 3"]
     assert "✗ does not hold" in rows["The non-linear one halves it"]
 
 
 def test_criteria_are_told_in_words_and_in_colour(report, visit):
     page = visit(report).page
-    cells = page.evaluate("""[...document.querySelectorAll("th[title='body_acceleration_max']")][0].parentElement.innerText""")
+    cells = page.evaluate(
+        """[...document.querySelectorAll("th[title='body_acceleration_max']")][0].parentElement.innerText"""
+    )
     assert "at most 8.00 m/s²" in cells and "✗ fail" in cells and "✓ pass" in cells and "11.24 m/s²" in cells
     colour = "element => getComputedStyle(element).color"
     assert page.locator("span.good").first.evaluate(colour) != page.locator("span.bad").first.evaluate(colour)
@@ -170,16 +185,29 @@ def test_equations_of_the_elements_in_use_are_given_once(report, visit):
 
 def test_an_element_of_the_users_own_is_described_by_its_docstring(comparison, plots, tmp_path):
     first = comparison.configurations[0]
-    note = ElementNote("spring", "air_bag", "An air bag: ``F < p A``.\n\nMore of it.\n\nAttributes:\n    area: concealed.")
+    note = ElementNote(
+        "spring", "air_bag", "An air bag: ``F < p A``.\n\nMore of it.\n\nAttributes:\n    area: concealed."
+    )
     changed = replace(first, characteristics=[replace(first.characteristics[0], elements=(note,))])
-    html = write_report(replace(comparison, configurations=[changed]), tmp_path / "r.html", plots=plots).read_text(encoding="utf-8")
-    assert "<h3>Spring: air bag</h3>" in html and "F &lt; p A" in html and "More of it." in html and "concealed" not in html
+    html = write_report(replace(comparison, configurations=[changed]), tmp_path / "r.html", plots=plots).read_text(
+        encoding="utf-8"
+    )
+    assert (
+        "<h3>Spring: air bag</h3>" in html
+        and "F &lt; p A" in html
+        and "More of it." in html
+        and "concealed" not in html
+    )
 
 
 def test_user_text_is_escaped_everywhere(comparison, plots, tmp_path):
     evil = '"><img src=x onerror=alert(1)>'
     first = comparison.configurations[0]
-    numbers = {**first.numbers, "settling_time": Number(None, "s", evil), "body_acceleration_rms": Number(1.0, "m/s²", evil)}
+    numbers = {
+        **first.numbers,
+        "settling_time": Number(None, "s", evil),
+        "body_acceleration_rms": Number(1.0, "m/s²", evil),
+    }
     changed = replace(comparison, title=evil, description=evil, claims=(Claim(evil, evil, evil, True),))
     changed = replace(changed, configurations=[replace(first, name=evil, title=evil, numbers=numbers)])
     html = write_report(changed, tmp_path / "r.html", plots=plots).read_text(encoding="utf-8")
@@ -192,7 +220,9 @@ def test_same_comparison_gives_the_same_bytes(comparison, report, tmp_path):
 
 
 def test_a_case_without_criteria_and_claims_gives_no_verdict(comparison, plots, tmp_path):
-    html = write_report(replace(comparison, criteria={}, claims=()), tmp_path / "r.html", plots=plots).read_text(encoding="utf-8")
+    html = write_report(replace(comparison, criteria={}, claims=()), tmp_path / "r.html", plots=plots).read_text(
+        encoding="utf-8"
+    )
     assert "No verdict." in html and "Claim beside result" not in html and "<h2>Criteria</h2>" not in html
 
 
@@ -220,12 +250,22 @@ def test_summary_is_strict_json_even_with_values_that_json_lacks(comparison, tmp
 
     summary = json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse)
     assert list(summary) == ["title", "configurations", "claims", "passed", "timings", "limit", "counts"]
-    assert summary["title"] == TITLE and summary["passed"] is False and summary["limit"] is None and summary["counts"] == [0, 1]
+    assert (
+        summary["title"] == TITLE
+        and summary["passed"] is False
+        and summary["limit"] is None
+        and summary["counts"] == [0, 1]
+    )
     entry = summary["configurations"][0]
     assert entry["configuration"] == "linear" and entry["model"] == "quarter_2dof"
     assert entry["numbers"]["body_acceleration_max"]["value"] == first.numbers["body_acceleration_max"].value
     assert entry["numbers"]["settling_time"]["value"] is None
-    assert summary["claims"][0] == {"text": CLAIMS[0].text, "expected": CLAIMS[0].expected, "result": CLAIMS[0].result, "holds": True}
+    assert summary["claims"][0] == {
+        "text": CLAIMS[0].text,
+        "expected": CLAIMS[0].expected,
+        "result": CLAIMS[0].result,
+        "holds": True,
+    }
 
 
 @pytest.mark.parametrize("write", [write_report, write_summary])

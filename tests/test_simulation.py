@@ -21,7 +21,9 @@ SHORT = Bump(duration=0.5)
 
 
 def chapter3(case="nonlinear", model="quarter_2dof", **overrides):
-    return build(load_vehicle("chapter3", case, {key.replace("__", "."): value for key, value in overrides.items()}), model)
+    return build(
+        load_vehicle("chapter3", case, {key.replace("__", "."): value for key, value in overrides.items()}), model
+    )
 
 
 def assert_same(run, other):
@@ -43,7 +45,12 @@ def test_repeats_are_bit_identical(model):
 
 
 def test_simulate_many_equals_simulate():
-    jobs = [(chapter3(case, model), manoeuvre) for case in SETS for model in QUARTERS for manoeuvre in (SHORT, RoadStep(duration=0.4))]
+    jobs = [
+        (chapter3(case, model), manoeuvre)
+        for case in SETS
+        for model in QUARTERS
+        for manoeuvre in (SHORT, RoadStep(duration=0.4))
+    ]
     for run, job in zip(simulate_many(jobs, workers=4), jobs, strict=True):
         assert_same(run, simulate(*job))
 
@@ -126,7 +133,9 @@ def test_channels_are_consistent():
     force = sum(run[name] for name in ("spring_force", "stop_force", "damper_force", "friction_force"))
     np.testing.assert_allclose(483.5 * (run["body_acceleration"] + 9.81), force, rtol=0, atol=1e-7)
     np.testing.assert_allclose(39.5 * (run["wheel_acceleration"] + 9.81), run["wheel_load"] - force, rtol=0, atol=1e-7)
-    np.testing.assert_allclose(run["suspension_deflection"], run["wheel_displacement"] - run["body_displacement"], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(
+        run["suspension_deflection"], run["wheel_displacement"] - run["body_displacement"], rtol=0, atol=1e-12
+    )
     expected = np.maximum(0.0, 523 * 9.81 + 176e3 * (run["road_height"] - run["wheel_displacement"]))
     np.testing.assert_allclose(run["wheel_load"], expected, rtol=0, atol=1e-7)
     speed = np.gradient(run["suspension_deflection"], run.step)
@@ -135,7 +144,8 @@ def test_channels_are_consistent():
 
 @pytest.mark.parametrize("damping", [1500, 3000, 6000])
 def test_a_jump_of_a_rigid_wheel_passes_through_the_mount(damping):
-    """Without rise time the mount takes it all: the peak is ``k1 h / m`` and the spring's share, whatever the damper."""
+    """Without rise time the mount takes it all: the peak is ``k1 h / m`` and the spring's share, whatever the
+    damper."""
     plant = chapter3("linear", "quarter_1dof", rear__damper__rates=[damping])
     run = simulate(plant, RoadStep(height=0.01, rise_time=0.0, start=0.1, duration=0.2), step=2e-5)
     spring = 4743 / 9.81 * (2 * np.pi * 1.2) ** 2
@@ -143,7 +153,8 @@ def test_a_jump_of_a_rigid_wheel_passes_through_the_mount(damping):
 
 
 def test_a_massless_wheel_off_the_road_carries_nothing():
-    """A road that falls away leaves the massless wheel on its rebound stop: no force is left, and the hit is counted."""
+    """A road that falls away leaves the massless wheel on its rebound stop: no force is left, and the hit is
+    counted."""
     plant = chapter3("linear", "quarter_1dof")
     run = simulate(plant, RoadStep(height=-0.15, duration=2.0))
     beyond = run["suspension_deflection"] < -0.1
@@ -155,7 +166,9 @@ def test_a_massless_wheel_off_the_road_carries_nothing():
     assert stop_hits(run).value == np.sum(beyond[1:] & ~beyond[:-1])
 
 
-@pytest.mark.parametrize("change", [{"rear__friction__force": 3000}, {"rear__tyre__rate": 1e6}, {"rear__spring__stops__rate": 5e8}])
+@pytest.mark.parametrize(
+    "change", [{"rear__friction__force": 3000}, {"rear__tyre__rate": 1e6}, {"rear__spring__stops__rate": 5e8}]
+)
 def test_the_step_follows_the_stiffest_element(change):
     """Friction, tyre and stops of any stiffness: the step that is taken gives what a much finer one gives."""
     plant = chapter3("nonlinear", **change)
@@ -202,7 +215,8 @@ def test_divergence_is_reported_with_time_and_channel():
 
 
 def test_a_mount_too_stiff_for_the_step():
-    """600 N s/m x 2/3 in compression over the mount's rate is the time constant; RK4 bears steps up to 2.785 times it."""
+    """600 N s/m x 2/3 in compression over the mount's rate is the time constant; RK4 bears steps up to 2.785 times
+    it."""
     slowest = 600 * 2 / 3
     plant = chapter3("nonlinear", rear__damper__mount__rate=2e6)
     with pytest.raises(InputError) as caught:

@@ -44,7 +44,11 @@ def test_every_coefficient_arrives():
     tyre = load_tyre(SHIPPED)
     sections = read_sections(SHIPPED)
     for name in ("longitudinal", "lateral", "aligning", "rolling", "scaling"):
-        there = {key: float(text) for key, text in sections[f"{name.upper()}_COEFFICIENTS"].items() if key not in ("LGYR", "QTZ1", "MBELT")}
+        there = {
+            key: float(text)
+            for key, text in sections[f"{name.upper()}_COEFFICIENTS"].items()
+            if key not in ("LGYR", "QTZ1", "MBELT")
+        }
         found = getattr(tyre, name).model_dump()
         assert there == {key: found[key] for key in there}
         assert there
@@ -55,10 +59,15 @@ def test_comments_quotes_case_and_tables(tmp_path):
     noise = "$--- a line = of dashes\n! PCX1 = 9\n[shape]\n{radial width}\n 1.0 0.0\n 0.9 1.0\n"
     noise += "[LONGITUDINAL_COEFFICIENTS]\npcx1=+1.6411D0$ inline"
     path = written(
-        tmp_path, ("[LONGITUDINAL_COEFFICIENTS]\nPCX1 = 1.6411", noise), ("'LEFT'", '"Left"  $ side'), ("= 'PAC2002'", "='PAC2002'")
+        tmp_path,
+        ("[LONGITUDINAL_COEFFICIENTS]\nPCX1 = 1.6411", noise),
+        ("'LEFT'", '"Left"  $ side'),
+        ("= 'PAC2002'", "='PAC2002'"),
     )
     assert load_tyre(path) == load_tyre(SHIPPED)
-    assert read_sections(written(tmp_path, text="[A]\nNOTE = 'five $ or ! more' $ price\n"))["A"] == {"NOTE": "five $ or ! more"}
+    assert read_sections(written(tmp_path, text="[A]\nNOTE = 'five $ or ! more' $ price\n"))["A"] == {
+        "NOTE": "five $ or ! more"
+    }
 
 
 def test_windows_lines_and_byte_order_mark(tmp_path):
@@ -105,7 +114,9 @@ def test_uncombined_needs_no_weights(tmp_path):
 
 @pytest.mark.parametrize("fit", ["6", "21", "52"])
 def test_fit_types_of_52(tmp_path, fit):
-    assert load_tyre(written(tmp_path, ("PROPERTY_FILE_FORMAT = 'PAC2002'", f"PROPERTY_FILE_FORMAT='USER'\nFITTYP = {fit}")))
+    assert load_tyre(
+        written(tmp_path, ("PROPERTY_FILE_FORMAT = 'PAC2002'", f"PROPERTY_FILE_FORMAT='USER'\nFITTYP = {fit}"))
+    )
 
 
 @pytest.mark.parametrize(
@@ -123,7 +134,11 @@ def test_fit_types_of_52(tmp_path, fit):
         ("PKY1 = -21.92", "PKY1 = 21.92", ("LATERAL_COEFFICIENTS.PKY1", "21.92", "less than 0")),
         ("RCY1 = 1.0", "", ("LATERAL_COEFFICIENTS.RCY1", "USE_MODE 4")),
         ("PCX1 = 1.6411", "PCX1 = 1,6411", ("LONGITUDINAL_COEFFICIENTS.PCX1", "'1,6411' is not a number")),
-        ("PCX1 = 1.6411", "PCX1 = 1.6411\nPPX1 = 0.3", ("LONGITUDINAL_COEFFICIENTS.PPX1", "unknown coefficient", "choose")),
+        (
+            "PCX1 = 1.6411",
+            "PCX1 = 1.6411\nPPX1 = 0.3",
+            ("LONGITUDINAL_COEFFICIENTS.PPX1", "unknown coefficient", "choose"),
+        ),
         ("LFZO = 0.81", "LFZO = 0.81\nLFZ0 = 0.9", ("SCALING_COEFFICIENTS.LFZ0", "did you mean")),
         ("LMUY = 1.0", "LMUY = 0", ("SCALING_COEFFICIENTS.LMUY", "greater than 0")),
         ("PCX1 = 1.6411", "PCX1 = 1.6411\nPCX1 = 1.7", ("LONGITUDINAL_COEFFICIENTS.PCX1", "second time")),
@@ -152,7 +167,11 @@ TEXT_61 = SHIPPED_61.read_text(encoding="utf-8")
 def test_every_coefficient_of_61_arrives():
     tyre = load_tyre(SHIPPED_61)
     sections = read_sections(SHIPPED_61)
-    for section, name in (("STRUCTURAL", "structure"), ("OPERATING_CONDITIONS", "operation"), ("INFLATION_PRESSURE_RANGE", "ranges")):
+    for section, name in (
+        ("STRUCTURAL", "structure"),
+        ("OPERATING_CONDITIONS", "operation"),
+        ("INFLATION_PRESSURE_RANGE", "ranges"),
+    ):
         for key, text in sections[section].items():
             assert getattr(getattr(tyre, name), key) == float(text)
     for name in ("longitudinal", "lateral", "aligning", "overturning", "rolling"):
@@ -201,7 +220,11 @@ def test_units_of_61(tmp_path):
         ("[OPERATING_CONDITIONS]\nINFLPRES = 220000\nNOMPRES = 220000", "", ("OPERATING_CONDITIONS", "is required")),
         ("LATERAL_STIFFNESS = 103000", "", ("STRUCTURAL.LATERAL_STIFFNESS", "is required")),
         ("PKY6 = -0.8987", "", ("LATERAL_COEFFICIENTS.PKY6", "is required")),
-        ("PKY6 = -0.8987", "PKY6 = -0.8987\nPHY3 = 0.1", ("LATERAL_COEFFICIENTS.PHY3", "unknown coefficient of MF 6.1")),
+        (
+            "PKY6 = -0.8987",
+            "PKY6 = -0.8987\nPHY3 = 0.1",
+            ("LATERAL_COEFFICIENTS.PHY3", "unknown coefficient of MF 6.1"),
+        ),
         ("VERTICAL_STIFFNESS = 209651", "", ("VERTICAL.VERTICAL_STIFFNESS", "is required")),
         ("INFLPRES = 220000", "INFLPRES = 120000", ("OPERATING_CONDITIONS.INFLPRES", "120000 Pa", "180000 to 300000")),
         ("PRESMAX = 300000", "PRESMAX = -3", ("INFLATION_PRESSURE_RANGE.PRESMAX", "greater than 0")),
@@ -219,7 +242,10 @@ def test_errors_of_61(tmp_path, old, new, parts):
 def test_what_61_does_without_passes(tmp_path):
     extra = "PCX1 = 1.579\nPTX1 = 1.98\n"
     path = written(
-        tmp_path, ("PCX1 = 1.579\n", extra), ("[LATERAL_C", "[SCALING_COEFFICIENTS]\nLGAX = 1\nLMUV = 0\n[LATERAL_C"), text=TEXT_61
+        tmp_path,
+        ("PCX1 = 1.579\n", extra),
+        ("[LATERAL_C", "[SCALING_COEFFICIENTS]\nLGAX = 1\nLMUV = 0\n[LATERAL_C"),
+        text=TEXT_61,
     )
     assert load_tyre(path) == load_tyre(SHIPPED_61)
 
@@ -236,4 +262,6 @@ def test_missing_file(tmp_path):
 
 
 def test_neutral_coefficients_of_other_versions_pass(tmp_path):
-    assert load_tyre(written(tmp_path, ("PCX1 = 1.6411", "PCX1 = 1.6411\nPPX1 = 0.0"), ("LFZO = 0.81", "LFZO = 0.81\nLKZC = 1")))
+    assert load_tyre(
+        written(tmp_path, ("PCX1 = 1.6411", "PCX1 = 1.6411\nPPX1 = 0.0"), ("LFZO = 0.81", "LFZO = 0.81\nLKZC = 1"))
+    )

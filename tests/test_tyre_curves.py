@@ -26,9 +26,17 @@ from .comparisons import compare
 TYRE = load_tyre(FOLDER / "tyres" / "pac2002_245_40R18.tir")
 CURVES = tyre_curves(TYRE, 4000.0)
 LINEAR = LinearContactTyre(
-    radius=0.3, vertical_stiffness=2e5, nominal_load=4000, cornering_stiffness=7e4, longitudinal_stiffness=9e4, pneumatic_trail=0.03
+    radius=0.3,
+    vertical_stiffness=2e5,
+    nominal_load=4000,
+    cornering_stiffness=7e4,
+    longitudinal_stiffness=9e4,
+    pneumatic_trail=0.03,
 )
-NAMES = [f"tyre_{name}_characteristic" for name in ("longitudinal_force", "lateral_force", "aligning_moment", "combined_slip")]
+NAMES = [
+    f"tyre_{name}_characteristic"
+    for name in ("longitudinal_force", "lateral_force", "aligning_moment", "combined_slip")
+]
 
 
 def test_curves_are_the_laws():
@@ -79,7 +87,8 @@ def test_plots():
     other = SimpleNamespace(title="front axle", tyre=tyre_curves(LINEAR, 4000.0))
     for name in NAMES:
         one, same, two = (
-            lines_in(tyre_plots(sets)[name]) for sets in ({"a": [axle]}, {"a": [axle], "b": [axle]}, {"a": [axle], "b": [other]})
+            lines_in(tyre_plots(sets)[name])
+            for sets in ({"a": [axle]}, {"a": [axle], "b": [axle]}, {"a": [axle], "b": [other]})
         )
         assert one == same < two, name
     assert "4.0 kN" in alone[NAMES[0]]
@@ -96,11 +105,15 @@ def test_the_sheet_shows_the_tyre_of_a_car(tmp_path):
     page = write_sheet("car", {"a": [with_tyre]}, tmp_path / "sheet.html").read_text(encoding="utf-8")
     assert "Tyre combined slip" in page
     without = replace(with_tyre, tyre=None)
-    assert "Tyre combined slip" not in write_sheet("car", {"a": [without]}, tmp_path / "sheet.html").read_text(encoding="utf-8")
+    assert "Tyre combined slip" not in write_sheet("car", {"a": [without]}, tmp_path / "sheet.html").read_text(
+        encoding="utf-8"
+    )
     assert not set(NAMES) & set(characteristic_plots({"a": [with_tyre]}))
 
 
-@pytest.mark.parametrize("tyre", [TYRE, load_tyre(FOLDER / "tyres" / "mf61_205_60R15.tir"), LINEAR], ids=lambda each: each.kind)
+@pytest.mark.parametrize(
+    "tyre", [TYRE, load_tyre(FOLDER / "tyres" / "mf61_205_60R15.tir"), LINEAR], ids=lambda each: each.kind
+)
 def test_the_report_shows_the_tyre_of_the_model_that_rolls_on_it(tyre, tmp_path):
     comparison = compare(names={"linear": "linear"})
     (configuration,) = comparison.configurations
@@ -109,11 +122,15 @@ def test_the_report_shows_the_tyre_of_the_model_that_rolls_on_it(tyre, tmp_path)
     for model in ("quarter_2dof", "handling"):
         run = replace(configuration.run, meta={**configuration.run.meta, "model": model})
         each = replace(configuration, run=run, characteristics=[characteristic("rear axle", axle)])
-        pages[model] = write_report(replace(comparison, configurations=[each]), tmp_path / f"{model}.html").read_text(encoding="utf-8")
+        pages[model] = write_report(replace(comparison, configurations=[each]), tmp_path / f"{model}.html").read_text(
+            encoding="utf-8"
+        )
         assert set(NAMES) <= set(draw(replace(comparison, configurations=[each]))) or model != "handling"
     assert "Tyre combined slip" not in pages["quarter_2dof"]
     assert "Tyre combined slip" in pages["handling"]
-    name = {"linear": "Tyre: linear", "magic_formula": "Magic Formula 5.2", "magic_formula_61": "Magic Formula 6.1"}[tyre.kind]
+    name = {"linear": "Tyre: linear", "magic_formula": "Magic Formula 5.2", "magic_formula_61": "Magic Formula 6.1"}[
+        tyre.kind
+    ]
     assert name in pages["handling"]
     assert name not in pages["quarter_2dof"]
     assert "Tyre spring" in pages["quarter_2dof"]

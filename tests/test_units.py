@@ -75,7 +75,10 @@ def test_what_no_car_has_is_refused(value):
         to_si(value, "N")
 
 
-@given(st.floats(-1e12, 1e12), st.sampled_from([("mm", "m", 1e-3), ("kN", "N", 1e3), ("km/h", "m/s", 1 / 3.6), ("N/mm", "N/m", 1e3)]))
+@given(
+    st.floats(-1e12, 1e12),
+    st.sampled_from([("mm", "m", 1e-3), ("kN", "N", 1e3), ("km/h", "m/s", 1 / 3.6), ("N/mm", "N/m", 1e3)]),
+)
 def test_any_number_with_a_unit(value, unit):
     text, si, factor = unit
     assert to_si(f"{value!r} {text}", si) == pytest.approx(value * factor, rel=1e-14)
@@ -112,7 +115,16 @@ def test_nonsense_is_refused(value, unit, reason):
 
 
 @pytest.mark.parametrize(
-    ("one", "other"), [("N", "kg m/s^2"), ("W", "N m/s"), ("Pa", "N/m²"), ("Nm", "kg m²/s²"), ("Ns", "kgm/s"), ("l", "m³"), ("Hz", "1/s")]
+    ("one", "other"),
+    [
+        ("N", "kg m/s^2"),
+        ("W", "N m/s"),
+        ("Pa", "N/m²"),
+        ("Nm", "kg m²/s²"),
+        ("Ns", "kgm/s"),
+        ("l", "m³"),
+        ("Hz", "1/s"),
+    ],
 )
 def test_units_of_the_same_dimension(one, other):
     assert unit_factor(one)[1] == unit_factor(other)[1]

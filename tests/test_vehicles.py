@@ -1,4 +1,5 @@
-"""Vehicle files: those that ship are complete and sourced, and every mistake is one line with file, key, value and choices."""
+"""Vehicle files: those that ship are complete and sourced, and every mistake is one line with file, key, value and
+choices."""
 
 from __future__ import annotations
 
@@ -73,7 +74,9 @@ def test_no_source_is_left_over(name):
     sources = data.pop("sources", {})
     paths = list(values(data))
     for entry in sources:
-        assert any(path == entry or path.startswith(entry + ".") for path in paths), f"{name}.toml: source of '{entry}', which is not there"
+        assert any(path == entry or path.startswith(entry + ".") for path in paths), (
+            f"{name}.toml: source of '{entry}', which is not there"
+        )
 
 
 def test_the_quarter_car_of_chapter_3():
@@ -127,18 +130,27 @@ def test_what_a_car_lacks_is_listed(vehicle_file):
         load_vehicle(vehicle_file).check_handling()
     assert str(caught.value) == (
         "car.toml: model 'handling' needs what this car does not give: wheelbase, wheel_radius, loads.ko.sprung_mass, "
-        "loads.heavy.sprung_mass, front, rear.track, rear.wheel_inertia, rear.kinematics, rear.compliance, rear.handling_tyre, "
+        "loads.heavy.sprung_mass, front, rear.track, rear.wheel_inertia, rear.kinematics, rear.compliance, "
+        "rear.handling_tyre, "
         "steering, powertrain, brakes, aerodynamics"
     )
-    needs = load_vehicle("s_class", overrides={"brakes": None, "rear.wheel_inertia": None, "rear.compliance": {}}).handling_needs()
+    needs = load_vehicle(
+        "s_class", overrides={"brakes": None, "rear.wheel_inertia": None, "rear.compliance": {}}
+    ).handling_needs()
     assert needs == ["rear.wheel_inertia", "brakes"]
 
 
 def test_a_tyre_file_lies_beside_the_vehicle_or_ships(vehicle_file):
     """The one beside the vehicle comes first, wherever the program runs."""
-    vehicle_file.write_text(vehicle_file.read_text() + '[rear.handling_tyre]\nkind = "magic_formula"\nfile = "pac2002_245_40R18.tir"\n')
+    vehicle_file.write_text(
+        vehicle_file.read_text() + '[rear.handling_tyre]\nkind = "magic_formula"\nfile = "pac2002_245_40R18.tir"\n'
+    )
     assert load_vehicle(vehicle_file).rear.handling_tyre.radius == 0.344
-    own = (FOLDER / "tyres" / "pac2002_245_40R18.tir").read_text().replace("UNLOADED_RADIUS = 0.344", "UNLOADED_RADIUS = 0.3")
+    own = (
+        (FOLDER / "tyres" / "pac2002_245_40R18.tir")
+        .read_text()
+        .replace("UNLOADED_RADIUS = 0.344", "UNLOADED_RADIUS = 0.3")
+    )
     (vehicle_file.parent / "pac2002_245_40R18.tir").write_text(own)
     assert load_vehicle(vehicle_file).rear.handling_tyre.radius == 0.3
     (vehicle_file.parent / "pac2002_245_40R18.tir").write_text(own.replace("PDX1 = 1.1739", "PDX1 = -1"))
@@ -163,7 +175,9 @@ def test_the_bmw_is_that_of_commonroad():
     car = load_vehicle("bmw_320i")
     a, b, m_s, m_u = 1.1561957064, 1.4227170936, 965.7108098804363, 63.7921826056784
     assert car.wheelbase == pytest.approx(a + b, rel=1e-4)
-    assert car.loads["ko"].sprung_mass + 2 * (car.front.unsprung_mass + car.rear.unsprung_mass) == pytest.approx(1093.2952, rel=1e-5)
+    assert car.loads["ko"].sprung_mass + 2 * (car.front.unsprung_mass + car.rear.unsprung_mass) == pytest.approx(
+        1093.2952, rel=1e-5
+    )
     assert car.cg_height("ko") == pytest.approx(0.61373, abs=1e-4)
     wheels = m_u * (a**2 + b**2) + m_u * ((1.38684 / 2) ** 2 + (1.36398 / 2) ** 2)
     np.testing.assert_allclose(car.loads["ko"].inertia, (207.26525, 1565.81788, 1791.59953 - wheels), rtol=1e-4)
@@ -191,7 +205,9 @@ def test_the_bmw_is_that_of_commonroad():
 
 def test_overrides_come_last():
     vehicle = load_vehicle(
-        "chapter3", "linear", {"rear.damper.rates": [1200], "rear.tyre.rate": "200 N/mm", "loads.ko.corner_mass.rear": 500}
+        "chapter3",
+        "linear",
+        {"rear.damper.rates": [1200], "rear.tyre.rate": "200 N/mm", "loads.ko.corner_mass.rear": 500},
     )
     assert vehicle.rear.damper.rates == (1200,)
     assert vehicle.rear.tyre.rate == 200e3
@@ -229,8 +245,18 @@ def test_an_override_that_leads_nowhere(overrides, key):
 
 # what to replace, by what, key of the error, words that its line must hold: value and allowed
 MISTAKES = {
-    "unknown key": ("friction = 30.0", "frictoin = 30.0", "rear.damper.frictoin", ["did you mean 'friction'?", "rates"]),
-    "unknown key of an axle": ("unsprung_mass = 40.0", "unsprung_mas = 40.0", "rear.unsprung_mas", ["did you mean 'unsprung_mass'?"]),
+    "unknown key": (
+        "friction = 30.0",
+        "frictoin = 30.0",
+        "rear.damper.frictoin",
+        ["did you mean 'friction'?", "rates"],
+    ),
+    "unknown key of an axle": (
+        "unsprung_mass = 40.0",
+        "unsprung_mas = 40.0",
+        "rear.unsprung_mas",
+        ["did you mean 'unsprung_mass'?"],
+    ),
     "unknown section": ("[loads.heavy]", "[lods.heavy]", "lods", ["did you mean 'loads'?"]),
     "unknown kind of spring": (
         'kind = "linear"',
@@ -249,10 +275,25 @@ MISTAKES = {
     "zero mass": ("unsprung_mass = 40.0", "unsprung_mass = 0", "rear.unsprung_mass", ["0", "at least"]),
     "NaN": ("rate = 350000.0", "rate = nan", "rear.damper.mount.rate", ["nan", "not a finite number"]),
     "infinite": ("rate = 350000.0", "rate = inf", "rear.damper.mount.rate", ["inf", "not a finite number"]),
-    "stop on the wrong side": ('rebound = "-90 mm"', 'rebound = "90 mm"', "rear.spring.stops.rebound", ["0.09", "below 0"]),
+    "stop on the wrong side": (
+        'rebound = "-90 mm"',
+        'rebound = "90 mm"',
+        "rear.spring.stops.rebound",
+        ["0.09", "below 0"],
+    ),
     "stop missing": ('rebound = "-90 mm", ', "", "rear.spring.stops.rebound", ["is required"]),
-    "damper without slope": ("rates = [2400.0, 800.0]", "rates = [2400.0, 0.0]", "rear.damper.rates.1", ["0.0", "greater than 0"]),
-    "falling damper": ("rates = [2400.0, 800.0]", "rates = [2400.0, -800.0]", "rear.damper.rates.1", ["-800.0", "greater than 0"]),
+    "damper without slope": (
+        "rates = [2400.0, 800.0]",
+        "rates = [2400.0, 0.0]",
+        "rear.damper.rates.1",
+        ["0.0", "greater than 0"],
+    ),
+    "falling damper": (
+        "rates = [2400.0, 800.0]",
+        "rates = [2400.0, -800.0]",
+        "rear.damper.rates.1",
+        ["-800.0", "greater than 0"],
+    ),
     "damper table that falls": (
         'kind = "zoned"\nrates = [2400.0, 800.0]\nlimits = [0.15]\nratio = "1:2"\n',
         'kind = "table"\nspeed = [-1.0, 0.5, 1.0]\nforce = [-900.0, 500.0, 400.0]\n',
@@ -263,10 +304,20 @@ MISTAKES = {
     "ratio": ('ratio = "1:2"', 'ratio = "half"', "rear.damper.ratio", ["'1:2'"]),
     "no section": ("[loads.ko]", "[loads.design]", "loads", ["'ko'", "required"]),
     "no axle": (None, 'title = "x"\n[loads.ko]\ncorner_mass = { rear = 400.0 }\n', "front", ["axle is required"]),
-    "no spring": (None, 'title = "x"\n[loads.ko]\ncorner_mass = { rear = 400.0 }\n[rear]\n', "rear.spring", ["is required"]),
+    "no spring": (
+        None,
+        'title = "x"\n[loads.ko]\ncorner_mass = { rear = 400.0 }\n[rear]\n',
+        "rear.spring",
+        ["is required"],
+    ),
     "no loads": (None, 'title = "x"\n', "loads", ["is required"]),
     "a value for a table": ("friction = { force = 120.0 }", "friction = 120.0", "rear.friction", ["120.0", "table"]),
-    "source without status": ('"rear" = "estimated: a test"', '"rear" = "somebody said so"', "sources.rear", ["somebody", "estimated: …"]),
+    "source without status": (
+        '"rear" = "estimated: a test"',
+        '"rear" = "somebody said so"',
+        "sources.rear",
+        ["somebody", "estimated: …"],
+    ),
     "half a load case": (
         'corner_mass = { rear = "460 kg" }',
         'sprung_mass = "1900 kg"',
@@ -307,7 +358,10 @@ def test_the_file_of_the_mistakes_is_right_otherwise(vehicle_file):
     [
         (lambda path: load_vehicle("chapter4"), ["vehicle", "no vehicle 'chapter4'", "did you mean 'chapter3'?"]),
         (lambda path: load_vehicle(path / "none.toml"), ["none.toml", "no such file"]),
-        (lambda path: load_vehicle("chapter3", "liner"), ["chapter3.toml", "characteristics", "did you mean 'linear'?", "soft_linear"]),
+        (
+            lambda path: load_vehicle("chapter3", "liner"),
+            ["chapter3.toml", "characteristics", "did you mean 'linear'?", "soft_linear"],
+        ),
         (lambda path: load_vehicle("chapter3").axle("front"), ["chapter3.toml", "no axle 'front'", "rear"]),
         (lambda path: load_vehicle("chapter3").load("full"), ["chapter3.toml", "no load case 'full'", "ko"]),
         (lambda path: build(load_vehicle("chapter3"), "quarter_3dof"), ["model", "no model 'quarter_3dof'", *MODELS]),
@@ -356,7 +410,8 @@ def test_a_progressive_spring_that_does_not_fit_the_design_load(vehicle_file):
     """Found only when the preload is known: still file, key and limit."""
     text = vehicle_file.read_text().replace(
         'kind = "linear"\nrate = "25 N/mm"',
-        'kind = "progressive"\nfrequency = "1.2 Hz"\nrebound_force = 5000\ncompression_force = 9000\nprogressive_from = 0.02',
+        'kind = "progressive"\nfrequency = "1.2 Hz"\nrebound_force = 5000\ncompression_force = 9000\n'
+        "progressive_from = 0.02",
     )
     vehicle_file.write_text(text)
     with pytest.raises(InputError) as caught:

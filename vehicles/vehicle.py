@@ -46,7 +46,9 @@ HANDLING_CAR = ("steering", "powertrain", "brakes", "aerodynamics")
 def _status(text: str) -> str:
     status, _, reason = text.partition(":")
     if status not in ("measured", "cited", "estimated") or not reason.strip():
-        raise PydanticCustomError("wrong", "{text}", {"text": f"'{text}' must read 'measured: …', 'cited: …' or 'estimated: …'"})
+        raise PydanticCustomError(
+            "wrong", "{text}", {"text": f"'{text}' must read 'measured: …', 'cited: …' or 'estimated: …'"}
+        )
     return text
 
 
@@ -66,10 +68,11 @@ class Axle(Description):
         spring, damper, tyre: see `susp_mj.elements`.
         friction: linkage friction, or None.
         kinematics, compliance: how the wheel moves over travel, steering and forces; model `handling` only.
-        handling_tyre: tyre with slip; model `handling` only, the oscillation models take `tyre`. A file of it is looked for
-            beside the vehicle file, then among the tyres that ship.
+        handling_tyre: tyre with slip; model `handling` only, the oscillation models take `tyre`. A file of it is looked
+            for beside the vehicle file, then among the tyres that ship.
         wheel_inertia: of one wheel about its spin axis [kg m²], brake disc included; model `handling` only.
-        spring_ratio, damper_ratio: component travel per wheel travel, for sheets of the components; the car needs neither.
+        spring_ratio, damper_ratio: component travel per wheel travel, for sheets of the components; the car needs
+            neither.
     """
 
     track: PositiveLength | None = None
@@ -183,7 +186,9 @@ class Vehicle(Description):
         spring = self._settled(Spring.at_preload, axle.spring, corner * GRAVITY, f"{name}.spring")
         tyre = axle.tyre
         if tyre is not None:
-            tyre = self._settled(Tyre.at_static_load, tyre, (corner + (axle.unsprung_mass or 0.0)) * GRAVITY, f"{name}.tyre")
+            tyre = self._settled(
+                Tyre.at_static_load, tyre, (corner + (axle.unsprung_mass or 0.0)) * GRAVITY, f"{name}.tyre"
+            )
         return axle.model_copy(update={"spring": spring, "tyre": tyre})
 
     def _settled(self, method: Any, element: Any, force: float, key: str) -> Any:
@@ -215,7 +220,9 @@ class Vehicle(Description):
         missing += [f"loads.{name}.sprung_mass" for name, case in self.loads.items() if case.sprung_mass is None]
         for name in ("front", "rear"):
             axle: Axle | None = getattr(self, name)
-            missing += [name] if axle is None else [f"{name}.{key}" for key in HANDLING_AXLE if getattr(axle, key) is None]
+            missing += (
+                [name] if axle is None else [f"{name}.{key}" for key in HANDLING_AXLE if getattr(axle, key) is None]
+            )
         return missing + [key for key in HANDLING_CAR if getattr(self, key) is None]
 
     def check_handling(self) -> None:
@@ -226,7 +233,9 @@ class Vehicle(Description):
         """
         missing = self.handling_needs()
         if missing:
-            raise InputError(f"model 'handling' needs what this car does not give: {', '.join(missing)}", source=self.source)
+            raise InputError(
+                f"model 'handling' needs what this car does not give: {', '.join(missing)}", source=self.source
+            )
 
     def without_friction(self) -> Vehicle:
         """The same car without linkage and damper friction, for linearisation and closed forms."""
@@ -252,15 +261,20 @@ class Vehicle(Description):
         case = self.load(load)
         if case.corner_mass is not None:
             if axle not in case.corner_mass:
-                raise InputError(f"gives no mass for the {axle} axle", key=f"loads.{load}.corner_mass", source=self.source)
+                raise InputError(
+                    f"gives no mass for the {axle} axle", key=f"loads.{load}.corner_mass", source=self.source
+                )
             return case.corner_mass[axle]
         if self.wheelbase is None:
-            raise InputError("is required to share the sprung mass between the axles", key="wheelbase", source=self.source)
+            raise InputError(
+                "is required to share the sprung mass between the axles", key="wheelbase", source=self.source
+            )
         assert case.sprung_mass is not None and case.cg is not None
         behind_front = -case.cg[0]
         if not 0 < behind_front < self.wheelbase:
             raise InputError(
-                f"{case.cg[0]} m is not allowed; the centre of gravity lies between the axles, from 0 to -{self.wheelbase} m",
+                f"{case.cg[0]} m is not allowed; the centre of gravity lies between the axles, from 0 to "
+                f"-{self.wheelbase} m",
                 key=f"loads.{load}.cg.0",
                 source=self.source,
             )
@@ -273,7 +287,9 @@ def available_vehicles() -> list[str]:
     return sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
-def load_vehicle(name: str | Path, characteristics: str | None = None, overrides: Mapping[str, Any] | None = None) -> Vehicle:
+def load_vehicle(
+    name: str | Path, characteristics: str | None = None, overrides: Mapping[str, Any] | None = None
+) -> Vehicle:
     """Read a car.
 
     Args:
@@ -293,21 +309,27 @@ def load_vehicle(name: str | Path, characteristics: str | None = None, overrides
     chosen = default if characteristics is None else characteristics
     if chosen:
         if chosen not in sets:
-            raise InputError(f"no set '{chosen}'; {choices(sets or ['none'], chosen)}", key="characteristics", source=path.name)
+            raise InputError(
+                f"no set '{chosen}'; {choices(sets or ['none'], chosen)}", key="characteristics", source=path.name
+            )
         _merge(data, {key: value for key, value in sets[chosen].items() if key != "title"})
     elif sets:
         raise InputError(f"choose a set of characteristics: {', '.join(sets)}", key="characteristics", source=path.name)
     for key, value in (overrides or {}).items():
         if key.split(".")[0] in ("characteristics", "default", ""):
             raise InputError(
-                "cannot be overridden; write the path as it stands below a set, like rear.damper.ratio", key=key, source=path.name
+                "cannot be overridden; write the path as it stands below a set, like rear.damper.ratio",
+                key=key,
+                source=path.name,
             )
         set_by_path(data, key, value, source=path.name)
     for reserved in ("name", "source"):
         if reserved in data:
             raise InputError("unknown key; a car is named by its file", key=reserved, source=path.name)
     _find_tyres(data, path)
-    return validate(Vehicle, {**data, "name": path.stem, "source": path.name, "characteristics": chosen}, source=path.name)
+    return validate(
+        Vehicle, {**data, "name": path.stem, "source": path.name, "characteristics": chosen}, source=path.name
+    )
 
 
 def characteristic_sets(name: str | Path) -> dict[str, str]:
@@ -383,7 +405,9 @@ def find_vehicle(name: str | Path) -> Path:
             raise InputError("no such file", source=text[:100])
         return path
     if text not in available_vehicles():
-        raise InputError(f"no vehicle '{text}'; {choices(available_vehicles(), text)}, or give a .toml file", key="vehicle")
+        raise InputError(
+            f"no vehicle '{text}'; {choices(available_vehicles(), text)}, or give a .toml file", key="vehicle"
+        )
     return FOLDER / f"{text}.toml"
 
 

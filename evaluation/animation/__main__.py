@@ -1,4 +1,5 @@
-"""The process that draws: ``python -m evaluation.animation <folder>``; its last line says what went wrong, if anything."""
+"""The process that draws: ``python -m evaluation.animation <folder>``; its last line says what went wrong, if
+anything."""
 
 from __future__ import annotations
 

@@ -16,7 +16,9 @@ def _outline(layout: Layout) -> np.ndarray:
     rear, front = layout.rear, layout.front
     if layout.one_axle:
         half = layout.half_track - 0.13
-        return np.array([(rear - 0.60, 0.95 * half, 0.69, 0.87), (rear, half, 0.675, 0.88), (front + 0.60, 0.95 * half, 0.69, 0.87)])
+        return np.array(
+            [(rear - 0.60, 0.95 * half, 0.69, 0.87), (rear, half, 0.675, 0.88), (front + 0.60, 0.95 * half, 0.69, 0.87)]
+        )
     slim, wide = layout.half_track - 0.36, layout.half_track + 0.03
     return np.array(
         [
@@ -44,7 +46,9 @@ def bodywork(picture: Picture, layout: Layout) -> None:
     picture.material("leather", (0.24, 0.2, 0.18), 0.1, 0.2)
     body, half_only = picture.posed("body"), layout.one_sided
 
-    def add(name: str, surface: tub.Surface, material: str, pos: Sequence[float] = (0, 0, 0), behind: float = 0.0) -> None:
+    def add(
+        name: str, surface: tub.Surface, material: str, pos: Sequence[float] = (0, 0, 0), behind: float = 0.0
+    ) -> None:
         moved = tub.Surface(surface.vertices + np.array([pos[0], pos[1] + layout.middle, pos[2]]), surface.faces)
         picture.mesh(body, name, tub.cut(moved, y=layout.middle - behind) if half_only else moved, material)
 
@@ -53,7 +57,12 @@ def bodywork(picture: Picture, layout: Layout) -> None:
         add("hull", tub.hull(outline), "paint")
         for number in range(3):
             ballast = tub.rounded_box(0.62 - 0.05 * number, 0.72 - 0.05 * number, 0.06, 0.012)
-            add(f"ballast{number}", ballast, ("dark", "steel", "dark")[number], (layout.front, 0, outline[1, 3] + 0.03 + 0.062 * number))
+            add(
+                f"ballast{number}",
+                ballast,
+                ("dark", "steel", "dark")[number],
+                (layout.front, 0, outline[1, 3] + 0.03 + 0.062 * number),
+            )
         return
     cockpit, floor = (layout.rear + 0.62, layout.front - 0.62), 0.34
     add("hull", tub.hull(outline, cockpit=cockpit, floor=floor), "paint")
@@ -69,7 +78,9 @@ def bodywork(picture: Picture, layout: Layout) -> None:
     _lamps(picture, body, layout)
 
 
-def saloon_surfaces(wheelbase: float, half_track: float, wheel_radius: float, tyre_radius: float, *, fine: bool) -> dict[str, Any]:
+def saloon_surfaces(
+    wheelbase: float, half_track: float, wheel_radius: float, tyre_radius: float, *, fine: bool
+) -> dict[str, Any]:
     """Surfaces of a closed car by material, see `vehicles.mjcf.saloon`; lengths in m."""
     from vehicles.mjcf import tub
 
@@ -81,5 +92,17 @@ def _lamps(picture: Picture, body: Any, layout: Layout) -> None:
     """Head lamps and tail lamps, so that one sees where the front is."""
     slim = layout.half_track - 0.36
     for side in (-1.0,) if layout.one_sided else (-1.0, 1.0):
-        picture.shape(body, "ellipsoid", (0.075, 0.035, 0.032), "glow", (layout.front + 0.64, layout.middle + side * 0.66 * slim, 0.43))
-        picture.shape(body, "ellipsoid", (0.03, 0.06, 0.03), "tail", (layout.rear - 0.645, layout.middle + side * 0.62 * slim, 0.6))
+        picture.shape(
+            body,
+            "ellipsoid",
+            (0.075, 0.035, 0.032),
+            "glow",
+            (layout.front + 0.64, layout.middle + side * 0.66 * slim, 0.43),
+        )
+        picture.shape(
+            body,
+            "ellipsoid",
+            (0.03, 0.06, 0.03),
+            "tail",
+            (layout.rear - 0.645, layout.middle + side * 0.62 * slim, 0.6),
+        )

@@ -1,4 +1,5 @@
-"""Texts and traces around cars with several wheels: load bars laid out as the wheels are, roll and pitch, smallest load."""
+"""Texts and traces around cars with several wheels: load bars laid out as the wheels are, roll and pitch, smallest
+load."""
 
 from __future__ import annotations
 
@@ -32,7 +33,10 @@ class CarHud(Hud):
     def charts(self, left: Box, right: Box) -> Sequence[Diagram]:
         quantity = liveliest_angle(self.clips, self.window)
         if quantity is None:
-            signals, title = [(clip.run.time, clip.run["body_acceleration"]) for clip in self.clips], "Body acceleration in m/s²"
+            signals, title = (
+                [(clip.run.time, clip.run["body_acceleration"]) for clip in self.clips],
+                "Body acceleration in m/s²",
+            )
         else:
             signals = [(clip.run.time, np.degrees(angle_of(clip.run, quantity))) for clip in self.clips]
             title = f"{ANGLES[quantity].capitalize()} angle in ° ({SIGNS[quantity]})"
@@ -51,18 +55,34 @@ class CarHud(Hud):
 
     def _angles(self, draw: Any, run: Run, box: Box, time: float) -> None:
         s, outlined = self.scale, {"stroke_width": 2 * self.scale, "stroke_fill": PAPER}
-        shown = [(ANGLES[quantity], signed(float(np.degrees(at(run, quantity, time))), "°")) for quantity in ANGLES if quantity in run]
+        shown = [
+            (ANGLES[quantity], signed(float(np.degrees(at(run, quantity, time))), "°"))
+            for quantity in ANGLES
+            if quantity in run
+        ]
         if box.height < _SMALL * s:
             text = "   ".join(f"{name} {value}" for name, value in shown)
             draw.text(
-                (box.left + 18 * s, box.top + 114 * s), text, INK, typeface(12.5 * s), anchor="ls", stroke_width=2 * s, stroke_fill=PAPER
+                (box.left + 18 * s, box.top + 114 * s),
+                text,
+                INK,
+                typeface(12.5 * s),
+                anchor="ls",
+                stroke_width=2 * s,
+                stroke_fill=PAPER,
             )
             return
         for row, (name, value) in enumerate(shown):
             base = box.top + (122 + 24 * row) * s
             draw.text((box.left + 18 * s, base), name, SOFT, typeface(12.5 * s), anchor="ls", **outlined)
             draw.text(
-                (box.left + 112 * s, base), value, INK, typeface(16 * s, bold=True), anchor="rs", stroke_width=2 * s, stroke_fill=PAPER
+                (box.left + 112 * s, base),
+                value,
+                INK,
+                typeface(16 * s, bold=True),
+                anchor="rs",
+                stroke_width=2 * s,
+                stroke_fill=PAPER,
             )
 
     def _loads(self, draw: Any, run: Run, box: Box, time: float) -> list[str]:
@@ -83,7 +103,14 @@ class CarHud(Hud):
             middle = left + width / 2
             draw.text((middle, top - 4 * s), station, SOFT, typeface(12 * s), anchor="ms", **outlined)
             text = "LIFT" if lifted else f"{load / 1000:.1f}"
-            draw.text((middle, top + height + 5 * s), text, tone, typeface((12 if small else 14) * s, bold=True), anchor="mt", **outlined)
+            draw.text(
+                (middle, top + height + 5 * s),
+                text,
+                tone,
+                typeface((12 if small else 14) * s, bold=True),
+                anchor="mt",
+                **outlined,
+            )
             off += [station] if lifted else []
         return off
 

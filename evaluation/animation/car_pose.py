@@ -20,7 +20,14 @@ CG_HEIGHT = 0.55
 ONE_SIDE = 0.70
 """How far a one-sided car's plane of symmetry is drawn beside its wheels [m]."""
 _SAME_ROAD = 2e-3
-_USUAL = {"fl": (0.0, 0.7), "fr": (0.0, -0.7), "rl": (-2.9, 0.7), "rr": (-2.9, -0.7), "front": (0.0, 0.0), "rear": (-2.9, 0.0)}
+_USUAL = {
+    "fl": (0.0, 0.7),
+    "fr": (0.0, -0.7),
+    "rl": (-2.9, 0.7),
+    "rr": (-2.9, -0.7),
+    "front": (0.0, 0.0),
+    "rear": (-2.9, 0.0),
+}
 
 
 @dataclass(frozen=True)
@@ -111,7 +118,10 @@ class Layout:
 
     def leader(self, side: float) -> str:
         """Foremost wheel of a side."""
-        return max((station for station in self.places if self.side(station) == side), key=lambda station: self.places[station][0])
+        return max(
+            (station for station in self.places if self.side(station) == side),
+            key=lambda station: self.places[station][0],
+        )
 
     def mount(self, station: str, height: float) -> np.ndarray:
         """Point on the axis of a strut in the design position [m]."""
@@ -120,7 +130,8 @@ class Layout:
 
 
 def road_speed(run: Run, layout: Layout) -> float:
-    """Speed at which one road per track passes under all wheels [m/s]; 0 if their heights are not those of one road, as on a rig."""
+    """Speed at which one road per track passes under all wheels [m/s]; 0 if their heights are not those of one road, as
+    on a rig."""
     speed = speed_of(run)
     if speed <= 0:
         return 0.0
@@ -197,7 +208,9 @@ class CarPose:
     def strut_foot(self, station: str) -> np.ndarray:
         """Mount of a strut on its wheel or axle [m]."""
         at_rest = np.array([*self.layout.places[station], WHEEL_RADIUS])
-        return self.wheel_centre(station) + about_x(self.camber) @ (self.layout.mount(station, self.layout.strut.foot) - at_rest)
+        return self.wheel_centre(station) + about_x(self.camber) @ (
+            self.layout.mount(station, self.layout.strut.foot) - at_rest
+        )
 
     def strut_head(self, station: str) -> np.ndarray:
         """Mount of a strut on the body [m]."""

@@ -26,7 +26,9 @@ class CarScene(Scene):
     def __init__(self, shot: Shot, window: Window) -> None:
         self.run = shot.clips[0].run
         self.layout = Layout.of(self.run)
-        super().__init__(car_spec(self.run, self.layout, shot.colours[0], shot.size, window, shot.style.samples), shot.size)
+        super().__init__(
+            car_spec(self.run, self.layout, shot.colours[0], shot.size, window, shot.style.samples), shot.size
+        )
         self.camera = _camera(self.model, self.layout, shot.size, road_speed(self.run, self.layout) > 0)
 
     def pose(self, time: float) -> None:
@@ -44,7 +46,8 @@ def place(model: Any, data: Any, pose: CarPose) -> None:
 
 
 def stretch(model: Any, data: Any, geom: str, start: float, scale: float) -> None:
-    """Scale a shape along its body's z axis from the height `start` [m]: a geom's matrix need not be orthonormal for the picture."""
+    """Scale a shape along its body's z axis from the height `start` [m]: a geom's matrix need not be orthonormal for
+    the picture."""
     import mujoco
 
     number = model.geom(geom).id
@@ -61,7 +64,10 @@ def frames(pose: CarPose) -> dict[str, Frame]:
     layout, level = pose.layout, np.eye(3)
     placed = {"body": (pose.on_body(np.zeros(3)), pose.turned), "road": (np.array([-pose.travelled, 0.0, 0.0]), level)}
     if layout.one_axle:
-        placed["beam"] = (np.mean([pose.wheel_centre(station) for station in layout.places], axis=0), about_x(pose.camber))
+        placed["beam"] = (
+            np.mean([pose.wheel_centre(station) for station in layout.places], axis=0),
+            about_x(pose.camber),
+        )
     for station, (x, y) in layout.places.items():
         centre, upright_wheel = pose.wheel_centre(station), about_x(pose.camber)
         foot, head = pose.strut_foot(station), pose.strut_head(station)

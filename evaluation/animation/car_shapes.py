@@ -79,11 +79,14 @@ def _wheels(picture: Picture, run: Run, layout: Layout) -> None:
         if not layout.one_axle:
             inset = layout.strut.inset
             picture.shape(carrier, "box", (0.045, 0.06, 0.07), "dark", (0, -0.10 * side, -0.01))
-            picture.shape(carrier, "box", (0.03, inset / 2 - 0.02, 0.022), "dark", (0, -side * (inset / 2 + 0.02), -0.035))
+            picture.shape(
+                carrier, "box", (0.03, inset / 2 - 0.02, 0.022), "dark", (0, -side * (inset / 2 + 0.02), -0.035)
+            )
 
 
 def _struts(picture: Picture, layout: Layout) -> None:
-    """`<station>_foot`: damper tube, lower seat and the coil, to be stretched; `<station>_head`: piston rod and upper seat."""
+    """`<station>_foot`: damper tube, lower seat and the coil, to be stretched; `<station>_head`: piston rod and upper
+    seat."""
     from vehicles.mjcf import body as shapes
 
     strut = layout.strut
@@ -141,7 +144,12 @@ def _road(picture: Picture, run: Run, layout: Layout, window: Window) -> None:
             return np.interp(x - ahead, run.time * speed, heights)
 
         near, far = min(inner, outer), max(inner, outer)
-        picture.mesh(road, f"{name}_asphalt", shapes.road(height, [(start, end)], near=near, far=far, top=0.0, bottom=bottom), "asphalt")
+        picture.mesh(
+            road,
+            f"{name}_asphalt",
+            shapes.road(height, [(start, end)], near=near, far=far, top=0.0, bottom=bottom),
+            "asphalt",
+        )
         edge = outer - 0.16 * np.sign(outer - inner)
         dashes = [(start, end)] if name == "right" else [(x, x + 0.7) for x in np.arange(np.floor(start), end, 1.6)]
         line = shapes.road(height, dashes, near=edge - 0.045, far=edge + 0.045, top=0.003, bottom=bottom + 0.01)
@@ -159,7 +167,9 @@ def _tracks(layout: Layout) -> list[tuple[str, str, float, float]]:
     halves = []
     for name, side in (("right", -1.0), ("left", 1.0)):
         if any(layout.side(station) == side for station in layout.places):
-            halves.append((name, layout.leader(side), layout.middle, layout.middle + side * (layout.half_track + _ROAD_EDGE)))
+            halves.append(
+                (name, layout.leader(side), layout.middle, layout.middle + side * (layout.half_track + _ROAD_EDGE))
+            )
     return halves
 
 

@@ -28,9 +28,13 @@ class Chart:
         loads: the values are wheel loads; stretches without contact are marked red.
     """
 
-    def __init__(self, signals: Sequence[Signal], title: str, window: Window, box: Box, scale: float, *, loads: bool = False) -> None:
+    def __init__(
+        self, signals: Sequence[Signal], title: str, window: Window, box: Box, scale: float, *, loads: bool = False
+    ) -> None:
         self.box, self.window, self.scale = box, window, scale
-        self.plot = Box(round(46 * scale), round(27 * scale), box.width - round(60 * scale), box.height - round(50 * scale))
+        self.plot = Box(
+            round(46 * scale), round(27 * scale), box.width - round(60 * scale), box.height - round(50 * scale)
+        )
         grid = np.linspace(window.start, window.times[-1], max(self.plot.width * 2, 2))
         self.traces = [np.interp(grid, time, values) for time, values in signals]
         self.grid, self.title = grid, title
@@ -42,7 +46,10 @@ class Chart:
 
     def x(self, time: float | np.ndarray) -> Any:
         """Horizontal place in the chart [px]."""
-        return self.plot.left + (time - self.window.start) / max(self.window.times[-1] - self.window.start, 1e-9) * self.plot.width
+        return (
+            self.plot.left
+            + (time - self.window.start) / max(self.window.times[-1] - self.window.start, 1e-9) * self.plot.width
+        )
 
     def y(self, value: float | np.ndarray) -> Any:
         """Vertical place in the chart [px]."""
@@ -66,10 +73,16 @@ class Chart:
         for number, trace in enumerate(self.traces):
             tone = mixed(rgb(COLOURS[number]), PAPER, strength)
             points = np.column_stack([self.x(self.grid), self.y(trace)]) * fine
-            draw.line([tuple(point) for point in points.tolist()], tone, max(round(2.3 * self.scale * fine), 1), joint="curve")
+            draw.line(
+                [tuple(point) for point in points.tolist()], tone, max(round(2.3 * self.scale * fine), 1), joint="curve"
+            )
         for lifted in self.lifts:
             for one, other in spans(lifted):
-                edge = [self.x(self.grid[one]) * fine, (self.y(0.0) - 3 * self.scale) * fine, self.x(self.grid[other]) * fine]
+                edge = [
+                    self.x(self.grid[one]) * fine,
+                    (self.y(0.0) - 3 * self.scale) * fine,
+                    self.x(self.grid[other]) * fine,
+                ]
                 draw.rectangle([*edge, (self.y(0.0) + 3 * self.scale) * fine], mixed(rgb(LIFTED), PAPER, strength))
         image = image.resize((self.box.width, self.box.height), Image.Resampling.LANCZOS)
         self._label(ImageDraw.Draw(image))
@@ -79,7 +92,13 @@ class Chart:
         font = typeface(11.5 * self.scale)
         draw.text((self.plot.left, 5 * self.scale), self.title, INK, typeface(13 * self.scale, bold=True))
         for value in ticks(self.low, self.high, 4):
-            draw.text((self.plot.left - 6 * self.scale, self.y(value)), f"{value:g}".replace("-", "−"), SOFT, font, anchor="rm")
+            draw.text(
+                (self.plot.left - 6 * self.scale, self.y(value)),
+                f"{value:g}".replace("-", "−"),
+                SOFT,
+                font,
+                anchor="rm",
+            )
         base = self.plot.top + self.plot.height
         for time in ticks(self.window.start, self.window.times[-1], 8):
             draw.text((self.x(time), base + 5 * self.scale), f"{time:.3g}", SOFT, font, anchor="mt")
@@ -97,4 +116,9 @@ class Chart:
         draw.line([x, top - 3 * self.scale, x, top + self.plot.height + 3 * self.scale], INK, max(round(self.scale), 1))
         for number, trace in enumerate(self.traces):
             y, radius = self.box.top + self.y(float(np.interp(time, self.grid, trace))), 4.5 * self.scale
-            draw.ellipse([x - radius, y - radius, x + radius, y + radius], rgb(COLOURS[number]), (255, 255, 255), max(round(self.scale), 1))
+            draw.ellipse(
+                [x - radius, y - radius, x + radius, y + radius],
+                rgb(COLOURS[number]),
+                (255, 255, 255),
+                max(round(self.scale), 1),
+            )

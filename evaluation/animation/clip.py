@@ -73,12 +73,17 @@ def _kind(clip: Clip) -> Kind:
         facts = run.meta.get("facts", {})
         unknown = [name for name in FREE_FACTS if not isinstance(facts.get(name), (int, float))]
         if unknown:
-            raise InputError(f"'{clip.label}': the run does not say its {unknown[0]}, which a video of it needs among its facts")
+            raise InputError(
+                f"'{clip.label}': the run does not say its {unknown[0]}, which a video of it needs among its facts"
+            )
         return "handling"
     needed = [*_BODY, *(channel_name(station, quantity) for station in stations_of(run) or [""] for quantity in _WHEEL)]
     missing = [name for name in needed if name not in run]
     if missing:
-        raise InputError(f"'{clip.label}': only runs of oscillation and handling models can be shown; {model} has no channel {missing[0]}")
+        raise InputError(
+            f"'{clip.label}': only runs of oscillation and handling models can be shown; {model} has no channel "
+            f"{missing[0]}"
+        )
     return "quarter" if stations_of(run) == [""] else "car"
 
 
@@ -98,13 +103,18 @@ def features_of(run: Run) -> list[Mapping[str, Any]]:
     road, radius = run.meta.get("road"), run.meta.get("manoeuvre", {}).get("radius")
     given = road.get("features", []) if isinstance(road, Mapping) else []
     features = [feature for feature in given if isinstance(feature, Mapping)]
-    if "path_deviation" in run and isinstance(radius, (int, float)) and not any(feature.get("kind") == "path" for feature in features):
+    if (
+        "path_deviation" in run
+        and isinstance(radius, (int, float))
+        and not any(feature.get("kind") == "path" for feature in features)
+    ):
         features.append({"kind": "path", "radius": float(radius)})
     return features
 
 
 def at(run: Run, quantity: str, time: float, default: float | None = None) -> float:
-    """Value of a channel at a time [s], linear between the records; `default`, if given, where the run has no such channel."""
+    """Value of a channel at a time [s], linear between the records; `default`, if given, where the run has no such
+    channel."""
     if default is not None and quantity not in run:
         return default
     return float(np.interp(time, run.time, run[quantity]))
@@ -131,7 +141,8 @@ def slope_at(run: Run, station: str, time: float) -> float:
 
 
 def tyre_deflection(run: Run, station: str = "") -> float:
-    """How far the tyre is pressed in in the design position [m], from the slope of wheel load over deflection; 0 for a rigid wheel."""
+    """How far the tyre is pressed in in the design position [m], from the slope of wheel load over deflection; 0 for a
+    rigid wheel."""
     height = wheel_height(station, run)
     if not height.endswith("wheel_displacement"):
         return 0.0

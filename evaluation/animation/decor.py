@@ -1,4 +1,5 @@
-"""What is drawn over a driving car's picture from frame to frame: load columns, marks of lifted wheels, the path so far."""
+"""What is drawn over a driving car's picture from frame to frame: load columns, marks of lifted wheels, the path so
+far."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ Tone = tuple[float, ...]
 
 
 def column(scene: Any, motion: Motion, pose: HandlingPose, station: str, highest: float, lifted: bool) -> None:
-    """Load of a wheel as a column beside it, full at the `highest` load [N], with a mark at its static load; red while it is lifted."""
+    """Load of a wheel as a column beside it, full at the `highest` load [N], with a mark at its static load; red while
+    it is lifted."""
     wheel, level = pose.wheels[station], about_z(pose.yaw)
     static = float(motion.run[channel_name(station, "wheel_load")][0])
     place = wheel.centre + side_of(station) * _BESIDE * level[:, 1]
@@ -32,8 +34,23 @@ def column(scene: Any, motion: Motion, pose: HandlingPose, station: str, highest
     height = 0.0 if lifted else COLUMN * wheel.load / highest
     if height > 0.01:
         red, green, blue = (part / 255 for part in load_tone(wheel.load, static))
-        add(scene, "BOX", (_HALF + 0.012, _HALF + 0.012, height / 2), foot + height / 2 * UP, level, (red, green, blue, 1.0), 0.35)
-    add(scene, "BOX", (_HALF + 0.03, _HALF + 0.03, 0.008), foot + COLUMN * static / highest * UP, level, (0.11, 0.13, 0.16, 1.0))
+        add(
+            scene,
+            "BOX",
+            (_HALF + 0.012, _HALF + 0.012, height / 2),
+            foot + height / 2 * UP,
+            level,
+            (red, green, blue, 1.0),
+            0.35,
+        )
+    add(
+        scene,
+        "BOX",
+        (_HALF + 0.03, _HALF + 0.03, 0.008),
+        foot + COLUMN * static / highest * UP,
+        level,
+        (0.11, 0.13, 0.16, 1.0),
+    )
 
 
 def lift_mark(scene: Any, pose: HandlingPose, station: str) -> None:
@@ -61,8 +78,14 @@ class Trail:
         # the front wheels met a place before the centre of gravity did
         earlier = self.times + motion.chassis.cg[0] / np.maximum(np.interp(self.times, run.time, run["speed"]), 1.0)
         roads = [run[name] for name in (channel_name(each, "road_height") for each in ("fl", "fr")) if name in run]
-        high = np.mean([np.interp(earlier, run.time, road) for road in roads], axis=0) if roads else np.zeros_like(self.times)
-        self.points = np.column_stack([*(np.interp(self.times, run.time, points[:, k]) for k in range(2)), high + height])
+        high = (
+            np.mean([np.interp(earlier, run.time, road) for road in roads], axis=0)
+            if roads
+            else np.zeros_like(self.times)
+        )
+        self.points = np.column_stack(
+            [*(np.interp(self.times, run.time, points[:, k]) for k in range(2)), high + height]
+        )
         self.pieces = [_piece(one, other) for one, other in pairwise(self.points)]
         self.tone = (*(0.25 + 0.75 * part for part in unit(colour)), 1.0)
         self.start = start
@@ -92,7 +115,15 @@ def unit(colour: str) -> Tone:
     return tuple(part / 255 for part in rgb(colour))
 
 
-def add(scene: Any, kind: str, size: Sequence[float], place: np.ndarray, turned: np.ndarray, tone: Tone, emission: float = 0.0) -> None:
+def add(
+    scene: Any,
+    kind: str,
+    size: Sequence[float],
+    place: np.ndarray,
+    turned: np.ndarray,
+    tone: Tone,
+    emission: float = 0.0,
+) -> None:
     """One more plain shape in what is about to be drawn, if there is room for it."""
     import mujoco
 
@@ -100,7 +131,9 @@ def add(scene: Any, kind: str, size: Sequence[float], place: np.ndarray, turned:
         return
     geom = scene.geoms[scene.ngeom]
     shape = getattr(mujoco.mjtGeom, f"mjGEOM_{kind}")
-    mujoco.mjv_initGeom(geom, shape, np.array(size), np.array(place), np.array(turned).ravel(), np.array(tone, np.float32))
+    mujoco.mjv_initGeom(
+        geom, shape, np.array(size), np.array(place), np.array(turned).ravel(), np.array(tone, np.float32)
+    )
     geom.category, geom.emission = mujoco.mjtCatBit.mjCAT_DECOR, emission
     geom.specular, geom.shininess = 0.1, 0.1
     scene.ngeom += 1

@@ -53,4 +53,8 @@ def _pane_mask(width: int, height: int, rounding: int, strength: int) -> Any:
 def draw_pane(frame: Any, box: tuple[float, float, float, float], rounding: float, strength: float = 0.80) -> None:
     """A light translucent pane (left, top, right, bottom) in a frame, on which texts can be read."""
     left, top, right, bottom = (round(edge) for edge in box)
-    frame.paste(PAPER, (left, top, right, bottom), _pane_mask(right - left, bottom - top, round(rounding), round(255 * strength)))
+    frame.paste(
+        PAPER,
+        (left, top, right, bottom),
+        _pane_mask(right - left, bottom - top, round(rounding), round(255 * strength)),
+    )

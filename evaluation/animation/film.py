@@ -43,7 +43,9 @@ def frames(clips: Sequence[Clip], window: Window, size: tuple[int, int], style: 
         for number, box in enumerate(hud.views):
             shown = range(len(clips)) if len(hud.views) == 1 else (number,)
             chosen, colours = tuple(clips[k] for k in shown), tuple(COLOURS[k] for k in shown)
-            scenes.append(scene_of(Shot(chosen, colours, (box.width, box.height), style, clips[0], hud.highest_load), window))
+            scenes.append(
+                scene_of(Shot(chosen, colours, (box.width, box.height), style, clips[0], hud.highest_load), window)
+            )
         for time in window.times.tolist():
             frame = hud.background.copy()
             for scene, box in zip(scenes, hud.views, strict=True):

@@ -1,4 +1,5 @@
-"""Flat shapes that lie on the proving ground: strips, plates, cones, and the hills around it; triangles from plain numpy."""
+"""Flat shapes that lie on the proving ground: strips, plates, cones, and the hills around it; triangles from plain
+numpy."""
 
 from __future__ import annotations
 
@@ -20,15 +21,21 @@ class Sheet:
 _DEPTH = 0.02
 
 
-def strip(points: np.ndarray, width: float, height: float | np.ndarray = 0.0, offset: float = 0.0, bottom: float | None = None) -> Sheet:
-    """A strip of a width along (n, 2) points, its top at a height and its sides down to a `bottom`, moved left by an `offset` [m]."""
+def strip(
+    points: np.ndarray, width: float, height: float | np.ndarray = 0.0, offset: float = 0.0, bottom: float | None = None
+) -> Sheet:
+    """A strip of a width along (n, 2) points, its top at a height and its sides down to a `bottom`, moved left by an
+    `offset` [m]."""
     along = np.gradient(points, axis=0)
     along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
     left = np.column_stack([-along[:, 1], along[:, 0]])
     high = np.broadcast_to(height, (len(points),))
     edges = [points + (offset + side * width / 2) * left for side in (-1.0, 1.0)]
     low = high - _DEPTH if bottom is None else np.full(len(points), bottom)
-    rings = np.stack([np.column_stack([edges[k], z]) for z, k in ((low, 0), (high, 0), (high, 0), (high, 1), (high, 1), (low, 1))], axis=1)
+    rings = np.stack(
+        [np.column_stack([edges[k], z]) for z, k in ((low, 0), (high, 0), (high, 0), (high, 1), (high, 1), (low, 1))],
+        axis=1,
+    )
     distance = np.concatenate([[0.0], np.cumsum(np.maximum(np.linalg.norm(np.diff(points, axis=0), axis=1), 1e-9))])
     up = np.column_stack([-np.gradient(high, distance)[:, None] * along, np.ones(len(points))])
     up /= np.linalg.norm(up, axis=1, keepdims=True)
@@ -36,13 +43,17 @@ def strip(points: np.ndarray, width: float, height: float | np.ndarray = 0.0, of
     return _extruded(rings, np.stack([-out, -out, up, up, out, out], axis=1))
 
 
-def dashes(points: np.ndarray, width: float, height: float, length: float, gap: float, offset: float = 0.0) -> list[Sheet]:
+def dashes(
+    points: np.ndarray, width: float, height: float, length: float, gap: float, offset: float = 0.0
+) -> list[Sheet]:
     """Dashes of a length with a gap [m] along (n, 2) points."""
     distance = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     sheets = []
     for start in np.arange(0.0, distance[-1] - length, length + gap):
         places = np.linspace(start, start + length, 4)
-        sheets.append(strip(np.column_stack([np.interp(places, distance, points[:, k]) for k in range(2)]), width, height, offset))
+        sheets.append(
+            strip(np.column_stack([np.interp(places, distance, points[:, k]) for k in range(2)]), width, height, offset)
+        )
     return sheets
 
 
@@ -87,7 +98,9 @@ def hills(radius: float, low: float, high: float, waves: Sequence[tuple[int, flo
     foot = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), np.full_like(turn, -1.0)])
     vertices = np.concatenate([foot, foot * [0.985, 0.985, 0.0] + np.column_stack([0 * turn, 0 * turn, top])])
     one = np.arange(360)
-    faces = np.concatenate([np.column_stack([one, one + 361, one + 1]), np.column_stack([one + 1, one + 361, one + 362])])
+    faces = np.concatenate(
+        [np.column_stack([one, one + 361, one + 1]), np.column_stack([one + 1, one + 361, one + 362])]
+    )
     normals = np.tile(np.column_stack([-0.7 * np.cos(turn), -0.7 * np.sin(turn), np.full_like(turn, 0.71)]), (2, 1))
     return Sheet(vertices, faces.astype(np.int32), normals)
 
@@ -99,7 +112,9 @@ def disc(half_length: float, half_width: float, exponent: float = 3.0, height: f
     rim = np.column_stack([half_length * x, half_width * y, np.full(48, height)])
     vertices = np.concatenate([rim, [[0.0, 0.0, height], [0.0, 0.0, height - _DEPTH]]])
     one, other = np.arange(48), np.roll(np.arange(48), -1)
-    faces = np.concatenate([np.column_stack([one, other, np.full(48, 48)]), np.column_stack([other, one, np.full(48, 49)])])
+    faces = np.concatenate(
+        [np.column_stack([one, other, np.full(48, 48)]), np.column_stack([other, one, np.full(48, 49)])]
+    )
     return Sheet(vertices, faces.astype(np.int32), np.tile([0.0, 0.0, 1.0], (50, 1)))
 
 
@@ -119,7 +134,9 @@ def _extruded(rings: np.ndarray, normals: np.ndarray) -> Sheet:
     count = len(rings)
     one, other = np.meshgrid(np.arange(count - 1), np.array([0, 2, 4]), indexing="ij")
     a = one * 6 + other
-    faces = np.concatenate([np.stack([a, a + 6, a + 7], axis=-1).reshape(-1, 3), np.stack([a, a + 7, a + 1], axis=-1).reshape(-1, 3)])
+    faces = np.concatenate(
+        [np.stack([a, a + 6, a + 7], axis=-1).reshape(-1, 3), np.stack([a, a + 7, a + 1], axis=-1).reshape(-1, 3)]
+    )
     return Sheet(rings.reshape(-1, 3), faces.astype(np.int32), normals.reshape(-1, 3))
 
 
@@ -128,7 +145,12 @@ def _turned(outline: Sequence[tuple[float, float]], sections: int = 20) -> Sheet
     turn = np.linspace(0.0, 2 * np.pi, sections + 1)
     radii, heights = np.array(outline).T
     grid = np.stack(
-        [radii[:, None] * np.cos(turn), radii[:, None] * np.sin(turn), np.repeat(heights[:, None], sections + 1, axis=1)], axis=-1
+        [
+            radii[:, None] * np.cos(turn),
+            radii[:, None] * np.sin(turn),
+            np.repeat(heights[:, None], sections + 1, axis=1),
+        ],
+        axis=-1,
     )
     slope = np.gradient(radii, np.maximum.accumulate(heights + 1e-6 * np.arange(len(heights))))
     normals = np.stack(

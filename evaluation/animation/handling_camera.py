@@ -48,7 +48,8 @@ _HALF_ANGLE = 14.0
 
 
 def camera_for(run: Run) -> str:
-    """Camera that shows what a manoeuvre is about: the front for a bend, behind where a course is to be kept, else the side.
+    """Camera that shows what a manoeuvre is about: the front for a bend, behind where a course is to be kept, else the
+    side.
 
     On a rig the front, if the body rolls or the wheels are steered.
     """
@@ -56,7 +57,9 @@ def camera_for(run: Run) -> str:
     if features & {"cones", "gust"}:
         return "chase"
     bends = float(np.abs(run["lateral_acceleration"]).max()) > _CORNERING
-    turned = float(run["speed"].max()) < _STANDS and any(float(np.ptp(run[name])) > least for name, least in _TURNED.items())
+    turned = float(run["speed"].max()) < _STANDS and any(
+        float(np.ptp(run[name])) > least for name, least in _TURNED.items()
+    )
     return "front" if bends or turned else "side"
 
 
@@ -79,7 +82,9 @@ class Follow:
         room: factor on what must fit into the picture.
     """
 
-    def __init__(self, model: Any, run: Run, view: View, inner: float, size: tuple[int, int], middle: float, room: float = 1.0) -> None:
+    def __init__(
+        self, model: Any, run: Run, view: View, inner: float, size: tuple[int, int], middle: float, room: float = 1.0
+    ) -> None:
         self.view, self.inner, self.middle = view, inner, middle
         self.camera = free_camera(model, _HALF_ANGLE)
         self.camera.elevation = -view.drop
@@ -87,7 +92,9 @@ class Follow:
         self.camera.distance = needed / 2 / np.tan(np.radians(_HALF_ANGLE)) + 1.2
         self.time = run.time
         self.course = _smoothed(run["yaw_angle"], _CALM_COURSE / run.step)
-        self.places = np.column_stack([_smoothed(run[name], _CALM_PLACE / run.step) for name in ("position_x", "position_y")])
+        self.places = np.column_stack(
+            [_smoothed(run[name], _CALM_PLACE / run.step) for name in ("position_x", "position_y")]
+        )
 
     def aim(self, time: float) -> Any:
         """The camera at a time [s]."""

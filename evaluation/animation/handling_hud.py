@@ -1,4 +1,5 @@
-"""Texts and traces around cars that drive freely: speed, steering wheel, lateral acceleration, roll, gear, wheel loads."""
+"""Texts and traces around cars that drive freely: speed, steering wheel, lateral acceleration, roll, gear, wheel
+loads."""
 
 from __future__ import annotations
 
@@ -49,7 +50,9 @@ _STEER = ("fl_steer_angle", "Front left steer in °", _DEGREES)
 SUBJECTS = {
     each.quantity: each
     for each in (
-        Subject("lateral_acceleration", "Lateral acceleration in m/s² (left +)", 1.0, ("roll_angle", "Roll in °", _DEGREES)),
+        Subject(
+            "lateral_acceleration", "Lateral acceleration in m/s² (left +)", 1.0, ("roll_angle", "Roll in °", _DEGREES)
+        ),
         Subject("longitudinal_acceleration", "Longitudinal acceleration in m/s²", 1.0, _PITCH),
         Subject("body_displacement", "Body displacement in mm", 1000.0, _PITCH),
         Subject("roll_angle", "Roll angle in ° (left side up +)", _DEGREES, _TRAVEL),
@@ -92,7 +95,9 @@ class HandlingHud(CarHud):
         """What the manoeuvre is about."""
         if self._bends():
             return SUBJECTS["lateral_acceleration"]
-        uneven = any(feature.get("kind") in ("bump", "random") for clip in self.clips for feature in features_of(clip.run))
+        uneven = any(
+            feature.get("kind") in ("bump", "random") for clip in self.clips for feature in features_of(clip.run)
+        )
         if not uneven and max(_largest(clip.run, "longitudinal_acceleration") for clip in self.clips) > _MOVES:
             return SUBJECTS["longitudinal_acceleration"]
         standing = max(_largest(clip.run, "speed") for clip in self.clips) < _STANDS
@@ -143,11 +148,16 @@ class HandlingHud(CarHud):
         return "speed", f"{3.6 * at(run, 'speed', time):.1f}", "km/h"
 
     def gauges(self, draw: Any, run: Run, box: Box, time: float) -> None:
-        """Lateral acceleration, roll and gear; the steering wheel; wheel loads in the order of the wheels seen from above."""
+        """Lateral acceleration, roll and gear; the steering wheel; wheel loads in the order of the wheels seen from
+        above."""
         s, small = self.scale, box.height < _SMALL * self.scale
         rows = self._rows(run, time)
         if small:
-            text = "   ".join(f"{name} {value}{unit if unit == '°' else ''}" for name, value, unit in rows if name in ("lateral", "roll"))
+            text = "   ".join(
+                f"{name} {value}{unit if unit == '°' else ''}"
+                for name, value, unit in rows
+                if name in ("lateral", "roll")
+            )
             draw.text((box.left + 18 * s, box.top + 114 * s), text, INK, typeface(12.5 * s), anchor="ls")
         else:
             for number, (name, value, unit) in enumerate(rows):

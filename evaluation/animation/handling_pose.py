@@ -46,7 +46,8 @@ class Chassis:
             y = side_of(station) * float(facts[f"track_{axle}"]) / 2
             centres[station] = np.array([x, y, float(facts[f"wheel_radius_{axle}"])])
         pressed = {
-            axle: np.mean([tyre_deflection(run, each) for each in centres if each[0] == axle]) for axle in {each[0] for each in centres}
+            axle: np.mean([tyre_deflection(run, each) for each in centres if each[0] == axle])
+            for axle in {each[0] for each in centres}
         }
         tyres = {station: float(centre[2] + pressed[station[0]]) for station, centre in centres.items()}
         cg = np.array([float(facts["cg_x"]), float(facts.get("cg_y", 0.0)), float(facts["cg_height"])])
@@ -92,7 +93,8 @@ class HandlingPose:
     """Where a run puts the car at one time.
 
     Attributes:
-        origin: where the point of the body is that lies on the road under the middle of the front axle in the design position [m].
+        origin: where the point of the body is that lies on the road under the middle of the front axle in the design
+            position [m].
         turned: (3, 3) rotation of the body.
         yaw: heading [rad].
         place: (x, y) of the centre of gravity [m].
@@ -117,10 +119,10 @@ class HandlingPose:
 class Motion:
     """The motion of a car that drives freely, from the channels of its run.
 
-    With p a point of the body in the design position, c the centre of gravity there, and R = Rz(yaw) Ry(pitch) Rx(roll),
-    the point is at ``(position_x, position_y, c_z + body_displacement) + R (p - c)``. A wheel centre moves along the body's z
-    axis by the suspension deflection; the wheel is turned by ``R Rz(steer) Rx(lean) Ry(spin)``, lean being the inclination
-    outwards at the top, ``spin`` the integral of the wheel speed.
+    With p a point of the body in the design position, c the centre of gravity there, and R = Rz(yaw) Ry(pitch)
+    Rx(roll), the point is at ``(position_x, position_y, c_z + body_displacement) + R (p - c)``. A wheel centre moves
+    along the body's z axis by the suspension deflection; the wheel is turned by ``R Rz(steer) Rx(lean) Ry(spin)``, lean
+    being the inclination outwards at the top, ``spin`` the integral of the wheel speed.
     """
 
     def __init__(self, run: Run) -> None:

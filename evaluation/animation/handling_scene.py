@@ -58,7 +58,8 @@ class HandlingScene(Scene):
     def pose(self, time: float) -> None:
         self.poses = [motion.pose(time) for motion in self.motions]
         self.lifted = [
-            {station for station in motion.chassis.centres if lift(motion.run, self.window, time, station)[0]} for motion in self.motions
+            {station for station in motion.chassis.centres if lift(motion.run, self.window, time, station)[0]}
+            for motion in self.motions
         ]
         placed: dict[str, Frame] = {}
         for number, pose in enumerate(self.poses):
@@ -103,5 +104,7 @@ def _under(pose: HandlingPose, motion: Motion) -> Frame:
 
 def _apart(solid: HandlingPose, ghost: HandlingPose) -> float:
     """Strength of a ghost, from 0.3 where it hides the solid car to 1 at some distance or lean from it."""
-    distance = float(np.linalg.norm(ghost.origin - solid.origin)) + 3.0 * float(np.abs(ghost.turned - solid.turned).max())
+    distance = float(np.linalg.norm(ghost.origin - solid.origin)) + 3.0 * float(
+        np.abs(ghost.turned - solid.turned).max()
+    )
     return min(0.3 + distance / 0.8, 1.0)

@@ -41,7 +41,8 @@ def car_materials(picture: Picture) -> None:
 
 
 def add_car(picture: Picture, chassis: Chassis, colour: str, prefix: str, *, ghost: bool, fine: bool) -> None:
-    """Bodies `<prefix>body`, `<prefix><station>_wheel`, `<prefix><station>_carrier` and `<prefix>shadow`, to be posed."""
+    """Bodies `<prefix>body`, `<prefix><station>_wheel`, `<prefix><station>_carrier` and `<prefix>shadow`, to be
+    posed."""
     paint = [value / 255 for value in rgb(colour)]
     picture.glossy(f"{prefix}paint", paint, 0.32, _GHOST if ghost else 1.0)
     station = next(iter(chassis.centres))
@@ -82,7 +83,10 @@ def _shadow(picture: Picture, chassis: Chassis, prefix: str, *, ghost: bool) -> 
     for number in range(count):
         share = number / (count - 1)
         sheet = ground.disc(
-            chassis.wheelbase / 2 + 1.20 - 0.55 * share, chassis.half_track + 0.34 - 0.42 * share, 3.2, 0.008 + 0.0008 * number
+            chassis.wheelbase / 2 + 1.20 - 0.55 * share,
+            chassis.half_track + 0.34 - 0.42 * share,
+            3.2,
+            0.008 + 0.0008 * number,
         )
         picture.mesh(shadow, f"{prefix}shadow{number}", sheet, "blob", (middle, 0, 0))
 

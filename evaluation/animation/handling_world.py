@@ -74,7 +74,9 @@ def proving_ground(picture: Picture, motions: Sequence[Motion]) -> None:
 
 def cross_slope(run: Run) -> float:
     """Rise of the ground per metre to the left."""
-    return next((float(feature.get("slope", 0.0)) for feature in features_of(run) if feature.get("kind") == "cross_slope"), 0.0)
+    return next(
+        (float(feature.get("slope", 0.0)) for feature in features_of(run) if feature.get("kind") == "cross_slope"), 0.0
+    )
 
 
 def add_plates(picture: Picture, motion: Motion) -> None:
@@ -114,7 +116,9 @@ def _asphalt(picture: Picture, base: Any, motions: Sequence[Motion], height: flo
     places = np.concatenate([np.column_stack([m.run["position_x"], m.run["position_y"]]) for m in motions])
     middle = np.round((places.max(axis=0) + places.min(axis=0)) / 2 / TILE) * TILE
     half = np.ceil((float(np.ptp(places, axis=0).max()) / 2 + 1.3 * _HILLS) / TILE) * TILE
-    texture = picture.spec.add_texture(name="asphalt_tile", type=mujoco.mjtTexture.mjTEXTURE_2D, width=1024, height=1024, nchannel=3)
+    texture = picture.spec.add_texture(
+        name="asphalt_tile", type=mujoco.mjtTexture.mjTEXTURE_2D, width=1024, height=1024, nchannel=3
+    )
     texture.data = _tile(1024).tobytes()
     material = picture.spec.add_material(name="ground", rgba=[1, 1, 1, 1], specular=0.0, shininess=0.0, reflectance=0.0)
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "asphalt_tile"
@@ -145,7 +149,9 @@ def _course(picture: Picture, base: Any, motions: Sequence[Motion], features: Se
     path = next((feature for feature in features if feature.get("kind") == "path"), None)
     radius = path.get("radius") if path else None
     if isinstance(radius, (int, float)) and radius:
-        rings = [ground.strip(ground.circle(0.0, radius, abs(radius) + off), _LINE, _PAINT) for off in (-LANE / 2, LANE / 2)]
+        rings = [
+            ground.strip(ground.circle(0.0, radius, abs(radius) + off), _LINE, _PAINT) for off in (-LANE / 2, LANE / 2)
+        ]
         picture.mesh(base, "lane", ground.together(rings), "white")
         middle = ground.dashes(ground.circle(0.0, radius, abs(radius), 361), 0.10, _PAINT, 1.0, 2.0)
         picture.mesh(base, "middle", ground.together(middle), "yellow")
@@ -155,7 +161,15 @@ def _course(picture: Picture, base: Any, motions: Sequence[Motion], features: Se
     straight = np.array([[np.floor(start / 9.0) * 9.0, 0.0], [end, 0.0]])
     edges = [ground.strip(straight, _LINE, _PAINT, side * LANE / 2) for side in (-1.0, 1.0)]
     wide = max(float(np.abs(m.run["position_y"]).max()) for m in motions) > 3 * LANE
-    far = [] if wide else [sheet for side in (-1.0, 1.0) for sheet in ground.dashes(straight, _LINE, _PAINT, 3.0, 6.0, side * 1.5 * LANE)]
+    far = (
+        []
+        if wide
+        else [
+            sheet
+            for side in (-1.0, 1.0)
+            for sheet in ground.dashes(straight, _LINE, _PAINT, 3.0, 6.0, side * 1.5 * LANE)
+        ]
+    )
     gate = ground.plate((-0.12, 0.12), (-LANE / 2, LANE / 2), _PAINT + 0.001)
     picture.mesh(base, "lane", ground.together([*edges, *far, gate]), "white")
     if path and {"x", "y"} <= path.keys() and len(np.atleast_1d(path["x"])) > 1:
@@ -180,7 +194,9 @@ def _tracks(picture: Picture, motion: Motion, name: str, bottom: float) -> None:
         raised = np.flatnonzero(np.abs(high - high[0]) > _FLAT)
         if len(raised) > 1 and np.linalg.norm(line[raised[-1]] - line[raised[0]]) < _SHORT:
             part = slice(int(raised[0]), int(raised[-1]) + 1)
-            bump = ground.strip(line[part], half + _EDGE + 0.004, high[part] + 0.003, side * (_EDGE - half) / 2, bottom=bottom)
+            bump = ground.strip(
+                line[part], half + _EDGE + 0.004, high[part] + 0.003, side * (_EDGE - half) / 2, bottom=bottom
+            )
             picture.mesh(picture.spec.worldbody, f"{name}_{station}_bump", bump, "bump")
 
 
@@ -194,7 +210,11 @@ def _spaced(points: np.ndarray, least: float) -> np.ndarray:
 def _span(feature: Mapping[str, Any], name: str, default: tuple[float, float]) -> tuple[float, float]:
     """Where a feature begins and ends in x or y [m]: its ``x = [from, to]``, or ``x_from`` and ``x_to``."""
     pair = feature.get(name)
-    one, other = pair if isinstance(pair, Sequence) and len(pair) == 2 else (feature.get(f"{name}_from"), feature.get(f"{name}_to"))
+    one, other = (
+        pair
+        if isinstance(pair, Sequence) and len(pair) == 2
+        else (feature.get(f"{name}_from"), feature.get(f"{name}_to"))
+    )
     return (float(one) if one is not None else default[0], float(other) if other is not None else default[1])
 
 
@@ -236,10 +256,15 @@ def _cones(picture: Picture, base: Any, name: str, feature: Mapping[str, Any], r
 
 
 def _gust(picture: Picture, base: Any, name: str, feature: Mapping[str, Any], run: Run) -> None:
-    """Zone of the side wind, with arrows that point with it; taken from the wind that the car met where no place is given."""
+    """Zone of the side wind, with arrows that point with it; taken from the wind that the car met where no place is
+    given."""
     wind = run["wind_y"] if "wind_y" in run else np.zeros_like(run.time)
     blows = np.flatnonzero(np.abs(wind) > 0.05 * max(float(np.abs(wind).max()), 1e-9))
-    met = (float(run["position_x"][blows[0]]), float(run["position_x"][blows[-1]])) if len(blows) and np.any(wind) else (0.0, 0.0)
+    met = (
+        (float(run["position_x"][blows[0]]), float(run["position_x"][blows[-1]]))
+        if len(blows) and np.any(wind)
+        else (0.0, 0.0)
+    )
     x, y = _span(feature, "x", met), _span(feature, "y", (-LANE, LANE))
     if x[1] - x[0] < 0.5:
         return

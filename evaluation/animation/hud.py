@@ -10,7 +10,21 @@ from susp_mj.run import Run
 
 from ..colours import COLOURS, LIFTED, rgb
 from .clip import Clip, at
-from .layout import BAND, HEADER, INK, LAYOUT_HEIGHT, PAPER, SOFT, STRIP, Box, columns, load_tone, panels, shortened, typeface
+from .layout import (
+    BAND,
+    HEADER,
+    INK,
+    LAYOUT_HEIGHT,
+    PAPER,
+    SOFT,
+    STRIP,
+    Box,
+    columns,
+    load_tone,
+    panels,
+    shortened,
+    typeface,
+)
 from .style import Style
 from .titles import describe, playback_text, signed
 from .window import Window
@@ -25,8 +39,8 @@ class Diagram(Protocol):
 class Hud(ABC):
     """Everything in a frame that is not a scene: header, labels, numbers, load bars and traces.
 
-    A kind of car gives its own `charts` and `gauges`. `boxes` are the places of the configurations' labels and gauges, `views`
-    those of the scenes: the same, unless all configurations stand in one scene.
+    A kind of car gives its own `charts` and `gauges`. `boxes` are the places of the configurations' labels and gauges,
+    `views` those of the scenes: the same, unless all configurations stand in one scene.
     """
 
     aside: ClassVar[float] = 146.0
@@ -80,7 +94,13 @@ class Hud(ABC):
 
         draw = ImageDraw.Draw(frame)
         s = self.scale
-        draw.text((self._clock_right, HEADER * s / 2), f"t = {time:.3f} s".replace("-", "−"), INK, typeface(20 * s, bold=True), anchor="rm")
+        draw.text(
+            (self._clock_right, HEADER * s / 2),
+            f"t = {time:.3f} s".replace("-", "−"),
+            INK,
+            typeface(20 * s, bold=True),
+            anchor="rm",
+        )
         for number, (clip, box) in enumerate(zip(self.clips, self.boxes, strict=True)):
             self._label(draw, clip, rgb(COLOURS[number]), box, time)
             self.gauges(draw, clip.run, box, time)
@@ -100,13 +120,18 @@ class Hud(ABC):
         draw.text((left + 2 * s, top + 80 * s), value, INK, big, anchor="ls")
         draw.text((left + 7 * s + big.getlength(value), top + 80 * s), unit, SOFT, typeface(13 * s), anchor="ls")
 
-    def bar(self, draw: Any, place: tuple[float, float, float, float], load: float, static: float, lifted: bool) -> float:
-        """Wheel load as a bar, green to orange, its frame red while the wheel is off the road; returns where the static load stands."""
+    def bar(
+        self, draw: Any, place: tuple[float, float, float, float], load: float, static: float, lifted: bool
+    ) -> float:
+        """Wheel load as a bar, green to orange, its frame red while the wheel is off the road; returns where the static
+        load stands."""
         s, full = self.scale, 1.05 * self.highest_load
         left, top, width, height = place
         right, base = left + width, top + height
         tone = rgb(LIFTED) if lifted else load_tone(load, static)
-        draw.rounded_rectangle([left, top, right, base], 4 * s, (255, 255, 255), rgb(LIFTED) if lifted else SOFT, max(round(s), 1))
+        draw.rounded_rectangle(
+            [left, top, right, base], 4 * s, (255, 255, 255), rgb(LIFTED) if lifted else SOFT, max(round(s), 1)
+        )
         filled = height * min(load / full, 1.0)
         if filled >= 2 * s + 1:
             draw.rectangle([left + 3 * s, base - filled, right - 3 * s, base - 2 * s], tone)

@@ -34,7 +34,10 @@ def panels(count: int, size: tuple[int, int]) -> list[Box]:
     top, bottom = round(HEADER * scale), height - round(STRIP * scale)
     rows = 1 if count <= 3 else 2
     columns = -(-count // rows)
-    xs, ys = np.linspace(0, width, columns + 1).round().astype(int), np.linspace(top, bottom, rows + 1).round().astype(int)
+    xs, ys = (
+        np.linspace(0, width, columns + 1).round().astype(int),
+        np.linspace(top, bottom, rows + 1).round().astype(int),
+    )
     gap = max(round(3 * scale), 1)
     boxes = []
     for number in range(count):
@@ -46,11 +49,13 @@ def panels(count: int, size: tuple[int, int]) -> list[Box]:
 
 
 def columns(count: int, size: tuple[int, int]) -> list[Box]:
-    """Where labels and gauges go if all configurations stand in one scene: one at its left edge and one at its right."""
+    """Where labels and gauges go if all configurations stand in one scene: one at its left edge and one at its
+    right."""
     whole = panels(1, size)[0]
     width = min(round(COLUMN * size[1] / LAYOUT_HEIGHT), whole.width // count)
     return [
-        Box(whole.left + (whole.width - width) * number // max(count - 1, 1), whole.top, width, whole.height) for number in range(count)
+        Box(whole.left + (whole.width - width) * number // max(count - 1, 1), whole.top, width, whole.height)
+        for number in range(count)
     ]
 
 
@@ -93,4 +98,7 @@ def ticks(low: float, high: float, count: int) -> list[float]:
     raw = (high - low) / count
     power = 10.0 ** np.floor(np.log10(raw))
     step = power * next(factor for factor in (1, 2, 2.5, 5, 10) if factor * power >= raw * 0.999)
-    return [round(float(k * step), 9) + 0.0 for k in range(int(np.ceil(low / step - 1e-9)), int(np.floor(high / step + 1e-9)) + 1)]
+    return [
+        round(float(k * step), 9) + 0.0
+        for k in range(int(np.ceil(low / step - 1e-9)), int(np.floor(high / step + 1e-9)) + 1)
+    ]

@@ -38,7 +38,9 @@ class Locus:
         scale: float,
     ) -> None:
         self.box, self.window, self.scale, self.title, self.across = box, window, scale, title, across
-        self.plot = Box(round(40 * scale), round(27 * scale), box.width - round(52 * scale), box.height - round(66 * scale))
+        self.plot = Box(
+            round(40 * scale), round(27 * scale), box.width - round(52 * scale), box.height - round(66 * scale)
+        )
         self.times = np.linspace(window.start, window.times[-1], 600)
         self.lines = [np.column_stack([np.interp(self.times, *signal) for signal in pair]) for pair in pairs]
         every = np.concatenate(self.lines)
@@ -51,7 +53,9 @@ class Locus:
     def at(self, points: np.ndarray) -> np.ndarray:
         """(n, 2) places in the diagram [px] of (n, 2) values."""
         share = (points - self.low) / (self.high - self.low)
-        return np.column_stack([self.plot.left + share[:, 0] * self.plot.width, self.plot.top + (1 - share[:, 1]) * self.plot.height])
+        return np.column_stack(
+            [self.plot.left + share[:, 0] * self.plot.width, self.plot.top + (1 - share[:, 1]) * self.plot.height]
+        )
 
     def _layer(self) -> Any:
         """Axes and what is to come, drawn large."""
@@ -95,6 +99,9 @@ class Locus:
             now = np.array([[np.interp(time, self.times, line[:, k]) for k in range(2)]])
             (x, y), radius = (self.at(now) * _FINE)[0].tolist(), 4.5 * self.scale * _FINE
             draw.ellipse(
-                [x - radius, y - radius, x + radius, y + radius], rgb(COLOURS[number]), (255, 255, 255), max(round(self.scale * _FINE), 1)
+                [x - radius, y - radius, x + radius, y + radius],
+                rgb(COLOURS[number]),
+                (255, 255, 255),
+                max(round(self.scale * _FINE), 1),
             )
         frame.paste(image.reduce(_FINE), (self.box.left, self.box.top))

@@ -24,12 +24,21 @@ class Picture:
         self.types = mujoco.mjtGeom
         self.spec = mujoco.MjSpec()
 
-    def material(self, name: str, colour: Sequence[float], specular: float = 0.2, shininess: float = 0.3, *, emission: float = 0.0) -> None:
+    def material(
+        self,
+        name: str,
+        colour: Sequence[float],
+        specular: float = 0.2,
+        shininess: float = 0.3,
+        *,
+        emission: float = 0.0,
+    ) -> None:
         tone = [*colour, 1.0] if len(colour) == 3 else list(colour)
         self.spec.add_material(name=name, rgba=tone, specular=specular, shininess=shininess, emission=emission)
 
     def glossy(self, name: str, colour: Sequence[float], share: float, alpha: float = 1.0) -> None:
-        """A material that mirrors ground, horizon and sky by a share from 0 to 1, baked into a texture over the upward slope."""
+        """A material that mirrors ground, horizon and sky by a share from 0 to 1, baked into a texture over the upward
+        slope."""
         import mujoco
 
         upward = np.linspace(-1.0, 1.0, 256)[:, None]
@@ -62,10 +71,21 @@ class Picture:
         body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 1, 0])
         return body
 
-    def shape(self, body: Any, kind: str, size: Sequence[float], material: str, pos: Sequence[float] = (0, 0, 0), **more: Any) -> None:
+    def shape(
+        self, body: Any, kind: str, size: Sequence[float], material: str, pos: Sequence[float] = (0, 0, 0), **more: Any
+    ) -> None:
         """A plain shape: ``box``, ``cylinder``, ``sphere``, ``ellipsoid``, ``plane``."""
         shape = getattr(self.types, f"mjGEOM_{kind.upper()}")
-        body.add_geom(type=shape, size=[*size, 0, 0][:3], material=material, pos=list(pos), mass=0.0, contype=0, conaffinity=0, **more)
+        body.add_geom(
+            type=shape,
+            size=[*size, 0, 0][:3],
+            material=material,
+            pos=list(pos),
+            mass=0.0,
+            contype=0,
+            conaffinity=0,
+            **more,
+        )
 
     def posed(self, name: str) -> Any:
         """A body that is put in its place as a whole, by `pose`."""
@@ -93,7 +113,14 @@ class Picture:
     def copy(self, body: Any, asset: str, material: str, pos: Sequence[float] = (0, 0, 0), **more: Any) -> None:
         """One more of an `asset`."""
         body.add_geom(
-            type=self.types.mjGEOM_MESH, meshname=asset, material=material, pos=list(pos), mass=0.0, contype=0, conaffinity=0, **more
+            type=self.types.mjGEOM_MESH,
+            meshname=asset,
+            material=material,
+            pos=list(pos),
+            mass=0.0,
+            contype=0,
+            conaffinity=0,
+            **more,
         )
 
 
@@ -174,4 +201,10 @@ def materials(picture: Picture, colour: str) -> None:
 def contact_shadow(picture: Picture, patch: Any) -> None:
     """Soft shadow of a wheel on a body that lies on the road: a stack of faint discs, far cheaper than a shadow map."""
     for number, radius in enumerate(np.linspace(0.13, 0.30, 8)):
-        picture.shape(patch, "ellipsoid", (float(radius), float(0.55 * radius), 0.0004), "shadow", (0, 0.02, 0.004 + 0.0005 * number))
+        picture.shape(
+            patch,
+            "ellipsoid",
+            (float(radius), float(0.55 * radius), 0.0004),
+            "shadow",
+            (0, 0.02, 0.004 + 0.0005 * number),
+        )

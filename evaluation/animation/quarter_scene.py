@@ -88,7 +88,8 @@ def place(model: Any, data: Any, pose: Pose) -> None:
 
 
 def stretch_coil(model: Any, data: Any, scene: Any, pose: Pose) -> None:
-    """Scale the coil along z from its foot, in the updated scene only: a geom's matrix there need not be orthonormal."""
+    """Scale the coil along z from its foot, in the updated scene only: a geom's matrix there need not be
+    orthonormal."""
     import mujoco
 
     coil = model.geom("coil").id

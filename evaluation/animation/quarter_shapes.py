@@ -22,7 +22,8 @@ LOWER_SEAT = 0.37
 
 
 def quarter_spec(run: Run, colour: str, size: tuple[int, int], window: Window, samples: int = 4) -> Any:
-    """MuJoCo specification of the picture of a quarter car; joints ``body``, ``wheel``, ``spin``, ``road`` and ``plate``."""
+    """MuJoCo specification of the picture of a quarter car; joints ``body``, ``wheel``, ``spin``, ``road`` and
+    ``plate``."""
     picture = Picture()
     studio(picture, size, samples=samples)
     materials(picture, colour)
@@ -46,7 +47,9 @@ def _bodywork(picture: Picture) -> None:
     arch = {"sill": -0.03, "arch": 0.415, "slot": 0.15}
     picture.mesh(body, "fender", shapes.fender(length=LENGTH, top=0.735, near=-0.13, far=-0.06, **arch), "paint")
     picture.mesh(body, "lip", shapes.arch_lip(near=-0.137, far=-0.06, **arch), "liner")
-    picture.mesh(body, "deck", shapes.deck(length=LENGTH - 0.012, top=0.737, thickness=0.07, near=-0.133, far=0.46), "paint")
+    picture.mesh(
+        body, "deck", shapes.deck(length=LENGTH - 0.012, top=0.737, thickness=0.07, near=-0.133, far=0.46), "paint"
+    )
     picture.mesh(body, "liner", shapes.rounded_box(0.9, 0.1, 0.62, 0.03), "liner", (0, 0.35, 0.345))
     picture.shape(body, "cylinder", (0.1, 0.012), "liner", (0, STRUT, 0.745))
     picture.shape(body, "cylinder", (0.06, 0.02), "dark", (0, STRUT, 0.76))
@@ -92,8 +95,12 @@ def _road(picture: Picture, body: Any, run: Run, window: Window) -> None:
     start, end = speed * window.start - 6.0, speed * window.end + 8.0
     raised = run.time[np.abs(run["road_height"] - run["road_height"][0]) > 1e-4] * speed
     dashes = [(x, x + 0.4) for x in np.arange(np.floor(start), end, 1.0)]
-    picture.mesh(body, "asphalt", shapes.road(height, [(start, end)], near=-0.3, far=1.7, top=0.0, bottom=-0.14), "asphalt")
-    picture.mesh(body, "edge", shapes.road(height, [(start, end)], near=-0.27, far=-0.22, top=0.003, bottom=-0.02), "line")
+    picture.mesh(
+        body, "asphalt", shapes.road(height, [(start, end)], near=-0.3, far=1.7, top=0.0, bottom=-0.14), "asphalt"
+    )
+    picture.mesh(
+        body, "edge", shapes.road(height, [(start, end)], near=-0.27, far=-0.22, top=0.003, bottom=-0.02), "line"
+    )
     picture.mesh(body, "dashes", shapes.road(height, dashes, near=1.15, far=1.25, top=0.003, bottom=-0.02), "line")
     if len(raised) and raised[-1] - raised[0] < 6.0:
         span = [(float(raised[0]), float(raised[-1]))]

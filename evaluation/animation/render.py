@@ -83,13 +83,23 @@ def _check(clips: Sequence[Clip], path: Path, size: tuple[int, int], fps: int, p
     if path.suffix.lower() != ".mp4":
         raise InputError("is not allowed; the name of a video must end in .mp4", source=str(path))
     if not 1 <= len(clips) <= len(COLOURS):
-        raise InputError(f"{len(clips)} configurations are not allowed; from 1 to {len(COLOURS)} fit a frame", source="video")
+        raise InputError(
+            f"{len(clips)} configurations are not allowed; from 1 to {len(COLOURS)} fit a frame", source="video"
+        )
     if any(side < 160 or side > 4096 or side % 2 for side in size):
-        raise InputError(f"{size[0]} x {size[1]} is not allowed; both must be even and from 160 to 4096 pixels", key="size", source="video")
+        raise InputError(
+            f"{size[0]} x {size[1]} is not allowed; both must be even and from 160 to 4096 pixels",
+            key="size",
+            source="video",
+        )
     if not 1 <= fps <= 120:
         raise InputError(f"{fps} is not allowed; choose 1 to 120 frames per second", key="fps", source="video")
     if playback is not None and not 0.001 <= playback <= 100:
-        raise InputError(f"{playback} is not allowed; choose 0.001 (slow motion) to 100, 1 is real time", key="playback", source="video")
+        raise InputError(
+            f"{playback} is not allowed; choose 0.001 (slow motion) to 100, 1 is real time",
+            key="playback",
+            source="video",
+        )
     kind_of(clips)
 
 
@@ -101,7 +111,9 @@ def _film_in_process(folder: str, progress: Callable[[float], None] | None) -> N
     said = ""
     with (
         tempfile.TemporaryFile() as noise,
-        subprocess.Popen(command, env=gl_environment(backend), stdout=subprocess.PIPE, stderr=noise, text=True) as process,
+        subprocess.Popen(
+            command, env=gl_environment(backend), stdout=subprocess.PIPE, stderr=noise, text=True
+        ) as process,
     ):
         assert process.stdout is not None
         try:
@@ -115,5 +127,9 @@ def _film_in_process(folder: str, progress: Callable[[float], None] | None) -> N
         if process.wait():
             noise.seek(0)
             lines = noise.read().decode(errors="replace").strip().splitlines()
-            reason = said.removeprefix("failed ") if said.startswith("failed ") else (lines or [f"exit status {process.returncode}"])[-1]
+            reason = (
+                said.removeprefix("failed ")
+                if said.startswith("failed ")
+                else (lines or [f"exit status {process.returncode}"])[-1]
+            )
             raise SuspMjError(f"the video could not be rendered: {reason}")

@@ -1,4 +1,5 @@
-"""What the scenes of all kinds of cars share: a compiled picture, an OpenGL context, and one picture after the other."""
+"""What the scenes of all kinds of cars share: a compiled picture, an OpenGL context, and one picture after the
+other."""
 
 from __future__ import annotations
 

@@ -58,12 +58,18 @@ class Style:
         free = kind_of(clips) == "handling"
         if self.camera is not None and not free:
             raise InputError(
-                f"'{self.camera}' is for runs of model handling; other cars are drawn from one place", key="camera", source="video"
+                f"'{self.camera}' is for runs of model handling; other cars are drawn from one place",
+                key="camera",
+                source="video",
             )
         if self.layout == "ghost" and not free:
-            raise InputError("'ghost' is for runs of model handling; other cars stand side by side", key="layout", source="video")
+            raise InputError(
+                "'ghost' is for runs of model handling; other cars stand side by side", key="layout", source="video"
+            )
         if self.layout == "ghost" and len(clips) > MOST_GHOSTS:
-            raise InputError(f"'ghost' shows up to {MOST_GHOSTS} configurations, not {len(clips)}", key="layout", source="video")
+            raise InputError(
+                f"'ghost' shows up to {MOST_GHOSTS} configurations, not {len(clips)}", key="layout", source="video"
+            )
 
 
 @dataclass(frozen=True)

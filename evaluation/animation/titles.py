@@ -35,7 +35,11 @@ def describe(manoeuvre: Mapping[str, Any]) -> str:
     """One line that says what is done: ``Bump · +80 mm · 2 m long · at 50 km/h``."""
     kind = str(manoeuvre.get("kind", "run"))
     known = _PARAMETERS | (_STEERED if kind.endswith("steer") else {})
-    parts = [text.format(manoeuvre[key] * factor) for key, (text, factor) in known.items() if isinstance(manoeuvre.get(key), (int, float))]
+    parts = [
+        text.format(manoeuvre[key] * factor)
+        for key, (text, factor) in known.items()
+        if isinstance(manoeuvre.get(key), (int, float))
+    ]
     if "road_class" in manoeuvre:
         parts.insert(0, f"class {manoeuvre['road_class']}")
     return "  ·  ".join([_TITLES.get(kind, kind.replace("_", " ").capitalize()), *parts]).replace("-", "−")

@@ -15,7 +15,8 @@ from ..ride import CONTACT_LOST
 from .clip import features_of
 
 BEFORE, AFTER, AFTER_INPUT, LONGEST = 0.1, 1.3, 1.0, 6.5
-"""Stretch of a run that is shown [s]: before the input first moves, after that, at least after it rests, and altogether at most."""
+"""Stretch of a run that is shown [s]: before the input first moves, after that, at least after it rests, and altogether
+at most."""
 PLAYBACKS = (0.2, 0.25, 1 / 3, 0.5, 1.0)
 LONGEST_CLIP = 8.0
 """Default playback is the slowest of these that keeps the clip below this length [s]."""
@@ -52,15 +53,19 @@ class Window:
 
 
 def window_of(runs: Sequence[Run], fps: int, playback: float | None) -> Window:
-    """From just before the input first moves until the cars have calmed down; of a long excitation, where a wheel load varies most.
+    """From just before the input first moves until the cars have calmed down; of a long excitation, where a wheel load
+    varies most.
 
-    Of cars that drive freely the whole run is shown, in real time or, if it is long, quicker; over a bump they count as others.
+    Of cars that drive freely the whole run is shown, in real time or, if it is long, quicker; over a bump they count as
+    others.
     """
     bump = any(feature.get("kind") == "bump" for run in runs for feature in features_of(run))
     if not bump and all("position_x" in run for run in runs):
         start, end = min(float(run.time[0]) for run in runs), max(float(run.time[-1]) for run in runs)
         if playback is None:
-            playback = next((each for each in DRIVING_PLAYBACKS if (end - start) / each <= LONGEST_DRIVE), DRIVING_PLAYBACKS[-1])
+            playback = next(
+                (each for each in DRIVING_PLAYBACKS if (end - start) / each <= LONGEST_DRIVE), DRIVING_PLAYBACKS[-1]
+            )
         return Window(start, end, playback, fps)
     moves = [_input_moves(run, _INPUTS[:1] if bump else _INPUTS) for run in runs]
     first, last = min(move[0] for move in moves), max(move[1] for move in moves)
@@ -90,7 +95,8 @@ def _largest_load(run: Run) -> tuple[float, float]:
 
 
 def lift(run: Run, window: Window, time: float, station: str = "") -> tuple[bool, float]:
-    """Whether a wheel is off the road at any record since the last frame, and how long it has been in the window so far [s]."""
+    """Whether a wheel is off the road at any record since the last frame, and how long it has been in the window so far
+    [s]."""
     off = run[channel_name(station, "wheel_load")] <= CONTACT_LOST
     latest = (run.time > time - max(window.frame_step, run.step)) & (run.time <= time + 1e-9)
     past = (run.time >= window.start) & (run.time <= time + 1e-9)

@@ -1,8 +1,9 @@
 """The callbacks: every element's force and state at every integration stage, and the inputs before them.
 
-An actuator is ours if its first user parameter is `ACTUATOR_MARK`; the number of its law and its partner come next, then the
-law's own parameters. Deflection and speed are the transmission's length and velocity plus the input's share (`ctrl` and `userdata`).
-A model of a car that drives freely is recognised by its custom numeric; what is beyond its elements is in `car`.
+An actuator is ours if its first user parameter is `ACTUATOR_MARK`; the number of its law and its partner come next,
+then the law's own parameters. Deflection and speed are the transmission's length and velocity plus the input's share
+(`ctrl` and `userdata`). A model of a car that drives freely is recognised by its custom numeric; what is beyond its
+elements is in `car`.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ _state_rate_of = law_call("susp_mj_state_table")
 
 @plain
 def _length(model, data, actuator):
-    """Length and rate of an actuator's form, the input's share in it; `userdata` may be too short in a file edited by hand."""
+    """Length and rate of an actuator's form, the input's share in it; `userdata` may be too short in a file edited by
+    hand."""
     v = doubles(data.actuator_velocity)[actuator]
     if USERDATA_HEADER + actuator < model.nuserdata:
         v += doubles(data.userdata)[USERDATA_HEADER + actuator]
@@ -74,7 +76,9 @@ def _element_state_rate(model, data, actuator, state_address):
     if own[0] != ACTUATOR_MARK or not 0.0 < own[1] < LAW_TABLE_SIZE:
         return 0.0
     x, v = _deflection(model, data, actuator, own)
-    return _state_rate_of(int(own[1]), x, v, doubles(data.act)[state_address], doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
+    return _state_rate_of(
+        int(own[1]), x, v, doubles(data.act)[state_address], doubles(user + types.uint64(8 * ACTUATOR_HEADER))
+    )
 
 
 @plain
@@ -113,14 +117,18 @@ def _inputs(model, data, userdata):
 
 
 def _with_helpers(sources: int) -> tuple[Any, Any]:
-    """Callbacks that call code of other modules; `sources` is part of them, so that the disk cache never gives an outdated one."""
+    """Callbacks that call code of other modules; `sources` is part of them, so that the disk cache never gives an
+    outdated one."""
 
     def state_rate(model_pointer, data_pointer, actuator):
         model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
         state_address = ints(model.actuator_actadr)[actuator]
         if model.nuser_actuator < ACTUATOR_HEADER or state_address < 0 or sources == 0:
             return 0.0
-        if is_car(model) and doubles(model.actuator_user + types.uint64(8 * model.nuser_actuator * actuator))[0] != ACTUATOR_MARK:
+        if (
+            is_car(model)
+            and doubles(model.actuator_user + types.uint64(8 * model.nuser_actuator * actuator))[0] != ACTUATOR_MARK
+        ):
             return car_state_rates(model, data, actuator)
         return _element_state_rate(model, data, actuator, state_address)
 
@@ -134,7 +142,9 @@ def _with_helpers(sources: int) -> tuple[Any, Any]:
             _inputs(model, data, userdata)
         if is_car(model):
             nothing = types.uint64(0)
-            car_forces(model, data, bits(userdata[2]) if running else nothing, bits(userdata[3]) if running else nothing)
+            car_forces(
+                model, data, bits(userdata[2]) if running else nothing, bits(userdata[3]) if running else nothing
+            )
 
     rate = cfunc(types.float64(MODEL, DATA, types.intc), cache=True, **OPTIONS)(state_rate)
     return rate, cfunc(types.void(MODEL, DATA), cache=True, **OPTIONS)(control)
@@ -152,8 +162,8 @@ _SLOTS = {
 def install(laws: Any = None, contacts: Any = ()) -> None:
     """Put the compiled callbacks into MuJoCo; calling it again changes nothing.
 
-    MuJoCo has one set of callbacks per process. Models that are not ours pass through them unchanged. MuJoCo's own timing stops,
-    see `clock`.
+    MuJoCo has one set of callbacks per process. Models that are not ours pass through them unchanged. MuJoCo's own
+    timing stops, see `clock`.
 
     Args:
         laws: numbers of the laws that will be used; None compiles every registered one.

@@ -1,8 +1,10 @@
-"""The car that drives freely, compiled: tyres, wheel paths, steering, power train, brakes, air and driver at every stage.
+"""The car that drives freely, compiled: tyres, wheel paths, steering, power train, brakes, air and driver at every
+stage.
 
-Everything acts as generalised forces in mjData's `qfrc_applied`: ``Q = J' F`` with the exact Jacobian of the wheel's path, so
-roll centres, anti-dive and anti-squat are the virtual work of the tyre's forces, and power is accounted for. The chassis is body 1
-with a free joint; names of the numbers are in `elements.car`. See docs/theory.md, "The car that drives freely".
+Everything acts as generalised forces in mjData's `qfrc_applied`: ``Q = J' F`` with the exact Jacobian of the wheel's
+path, so roll centres, anti-dive and anti-squat are the virtual work of the tyre's forces, and power is accounted for.
+The chassis is body 1 with a free joint; names of the numbers are in `elements.car`. See docs/theory.md, "The car that
+drives freely".
 """
 
 from __future__ import annotations
@@ -96,7 +98,8 @@ def held(head, data, r, origin, velocity, spin):
 
 @plain
 def car_forces(model, data, road, path):
-    """Write `qfrc_applied`, the targets of the steering springs and the signals; called at every stage after the inputs.
+    """Write `qfrc_applied`, the targets of the steering springs and the signals; called at every stage after the
+    inputs.
 
     Args:
         model, data: records of mjModel and mjData.
@@ -113,7 +116,9 @@ def car_forces(model, data, road, path):
     r = (rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8])
     origin, velocity, spin = (places[0], places[1], places[2]), (v[0], v[1], v[2]), (v[3], v[4], v[5])
     spin_world = turned(r, spin)
-    speed = math.copysign(math.sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]), velocity[0] * r[0] + velocity[1] * r[3])
+    speed = math.copysign(
+        math.sqrt(velocity[0] * velocity[0] + velocity[1] * velocity[1]), velocity[0] * r[0] + velocity[1] * r[3]
+    )
     signals[SPEED] = speed
     angle, angle_rate = steering(head, model, data, signals, path, origin, math.atan2(r[3], r[0]), speed)
     drive = 0.0
@@ -131,7 +136,8 @@ def car_forces(model, data, road, path):
         wheel = doubles(wheels + types.uint64(8 * WHEEL_SIZE * i))
         own = doubles(wheel_signals + types.uint64(8 * WHEEL_SIGNALS_SIZE * i))
         push, twist = wheel_forces(
-            head, wheel, base, model, data, own, road, r, origin, velocity, spin_world, angle, angle_rate, drive, signals[PEDAL]
+            head, wheel, base, model, data, own, road, r, origin, velocity, spin_world, angle, angle_rate, drive,
+            signals[PEDAL]
         )  # fmt: skip
         force = (force[0] + push[0], force[1] + push[1], force[2] + push[2])
         moment = (moment[0] + twist[0], moment[1] + twist[1], moment[2] + twist[2])

@@ -1,4 +1,5 @@
-"""MuJoCo's own stopwatch: its Python bindings install one, which costs a tenth of a step of a small model. Ours runs without."""
+"""MuJoCo's own stopwatch: its Python bindings install one, which costs a tenth of a step of a small model. Ours runs
+without."""
 
 from __future__ import annotations
 

@@ -66,14 +66,16 @@ from .surroundings import deviation, wanted_angle
 from .vectors import turned_back
 
 BRISTLE, BRISTLE_TIME, BRISTLE_DAMPING = 0.02, 1e-3, 2e-3
-"""Wind-up of a brake that holds [rad], its shortest time [s] when sliding fast, and its damping time when it holds [s]."""
+"""Wind-up of a brake that holds [rad], its shortest time [s] when sliding fast, and its damping time when it holds
+[s]."""
 HOLD_PEDAL = 0.3
 """Brake pedal with which the speed controller holds the car where its target is zero."""
 PARKED = 0.01
 LIMITER_WIDTH = 0.03
 """The limiter takes the torque away while the engine's speed exceeds the map's last by this share."""
 SHIFT_OPEN, MATCHING_TIME = 0.6, 0.05
-"""Share of a shift for which the drive is open, and the time [s] in which the engine is brought to the speed of the new gear."""
+"""Share of a shift for which the drive is open, and the time [s] in which the engine is brought to the speed of the new
+gear."""
 WIND_UP = 1.2
 
 
@@ -94,7 +96,9 @@ def steering(head, model, data, signals, path, position, heading, speed):
     signals[PATH_DEVIATION] = 0.0
     if driver >= 0 and path != types.uint64(0):
         state = act[ints(model.actuator_actadr)[driver]]
-        wanted = wanted_angle(doubles(path), position[0], position[1], heading, speed, head[STEERING_RATIO], head[WHEELBASE])
+        wanted = wanted_angle(
+            doubles(path), position[0], position[1], heading, speed, head[STEERING_RATIO], head[WHEELBASE]
+        )
         wanted = min(max(wanted, -head[STEERING_LIMIT]), head[STEERING_LIMIT])
         own_rate = (wanted - state) / max(doubles(path)[1], 1e-3)
         signals[DRIVER_RATE] = own_rate
@@ -108,11 +112,12 @@ def steering(head, model, data, signals, path, position, heading, speed):
 
 @plain
 def shifted_gear(head, signals, time, shaft_speed, accelerator):
-    """Gear at a speed of the propeller shaft; remembers gear and the beginning of a shift. The first call chooses a gear to cruise in.
+    """Gear at a speed of the propeller shaft; remembers gear and the beginning of a shift. The first call chooses a
+    gear to cruise in.
 
-    The speed is that of wheels which roll: neither a locked wheel nor a spinning one shifts the box. The accelerator is that of
-    the manoeuvre: released, as under braking or with the speed controller in charge, the gear is held as long as the engine can
-    turn in it; floored, `shift_down` holds; between, the threshold lies between.
+    The speed is that of wheels which roll: neither a locked wheel nor a spinning one shifts the box. The accelerator is
+    that of the manoeuvre: released, as under braking or with the speed controller in charge, the gear is held as long
+    as the engine can turn in it; floored, `shift_down` holds; between, the threshold lies between.
     """
     count = int(head[GEARS])
     gear = int(signals[GEAR])
@@ -176,8 +181,8 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
     limiter = 1.0 - min(max((engine_speed / head[ENGINE_LIMIT] - 1.0) / LIMITER_WIDTH, 0.0), 1.0)
     idle = min(max(head[IDLE_GAIN] * (head[IDLE_SPEED] - engine_speed), 0.0), head[IDLE_TORQUE])
     torque = drag + limiter * pedal * (full - drag) + idle
-    # a converter at standstill, locked up by a viscous clutch once the shaft turns faster than idling; a shift opens both, and
-    # until they close again the engine is brought to the shaft's speed
+    # a converter at standstill, locked up by a viscous clutch once the shaft turns faster than idling; a shift opens
+    # both, and until they close again the engine is brought to the shaft's speed
     lock = min(max(2.0 * input_speed / head[IDLE_SPEED] - 1.6, 0.0), 1.0)
     since = (time - signals[SHIFT_BEGAN]) / max(head[SHIFT_TIME], 1e-3)
     closed = min(max((since - SHIFT_OPEN) / (1.0 - SHIFT_OPEN), 0.0), 1.0)
@@ -193,7 +198,8 @@ def power(head, base, model, data, signals, shaft_speed, rolling_radius, speed):
 
 @plain
 def brake_torque(largest, pedal, bristle, spin):
-    """Torque against the turning and the rate of the bristle: a friction that holds at standstill and slides beyond its limit."""
+    """Torque against the turning and the rate of the bristle: a friction that holds at standstill and slides beyond its
+    limit."""
     rate = (spin - abs(spin) * bristle) / max(BRISTLE, abs(spin) * BRISTLE_TIME)
     return largest * max(pedal, 0.0) * min(max(bristle + BRISTLE_DAMPING * rate, -1.0), 1.0), rate
 

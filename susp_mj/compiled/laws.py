@@ -47,7 +47,9 @@ def law_call(symbol: str) -> Any:
 
     @intrinsic
     def call(context, number, x, v, y, parameters):
-        signature = types.float64(types.intp, types.float64, types.float64, types.float64, types.CPointer(types.float64))
+        signature = types.float64(
+            types.intp, types.float64, types.float64, types.float64, types.CPointer(types.float64)
+        )
 
         def generate(target, builder, signature, arguments):
             word, double = ir.IntType(64), ir.DoubleType()
@@ -116,8 +118,8 @@ def compile_contacts(numbers: Iterable[int]) -> None:
 def _compiled(name: str, function: Any, signature: Any) -> Any:
     """The compiled function; the cache keeps it alive as long as its address is in use.
 
-    Only the package's own laws are kept on disk: code there is bound to the module's name, and a user's file has another
-    name as a script than imported.
+    Only the package's own laws are kept on disk: code there is bound to the module's name, and a user's file has
+    another name as a script than imported.
     """
     for helper in helpers(function).values():
         register_jitable(**OPTIONS)(helper)

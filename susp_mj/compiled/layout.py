@@ -19,7 +19,8 @@ from ..errors import CallbackError
 MODEL_POINTERS = ("actuator_user", "actuator_actadr", "numeric_data")
 MODEL_SIZES = ("nuser_actuator", "nuserdata", "nnumeric")
 DATA_POINTERS = (
-    "ctrl", "act", "act_dot", "actuator_length", "actuator_velocity", "userdata", "qvel", "qfrc_applied", "xpos", "xmat",
+    "ctrl", "act", "act_dot", "actuator_length", "actuator_velocity", "userdata", "qvel", "qfrc_applied", "xpos",
+    "xmat",
 )  # fmt: skip
 DATA_SCALARS = ("time",)
 
@@ -34,10 +35,17 @@ class Layout:
     def record(self, struct: str) -> np.dtype:
         """Record dtype of ``"model"`` or ``"data"``, the MuJoCo version among its field names."""
         offsets: dict[str, int] = getattr(self, struct)
-        formats = [np.int32 if name in MODEL_SIZES else np.float64 if name in DATA_SCALARS else np.uint64 for name in offsets]
+        formats = [
+            np.int32 if name in MODEL_SIZES else np.float64 if name in DATA_SCALARS else np.uint64 for name in offsets
+        ]
         version = f"mujoco_{mujoco.__version__}".replace(".", "_")
         return np.dtype(
-            {"names": [*offsets, version], "offsets": [*offsets.values(), 0], "formats": [*formats, np.uint8], "itemsize": 2**20}
+            {
+                "names": [*offsets, version],
+                "offsets": [*offsets.values(), 0],
+                "formats": [*formats, np.uint8],
+                "itemsize": 2**20,
+            }
         )
 
 
@@ -70,11 +78,15 @@ def _find(structs: Sequence[Any], name: str, kind: Any) -> int:
     """
     width = ctypes.sizeof(kind)
     for count in (256, 1024, 4096, 16384, 20480, 24576):
-        places = [set(np.flatnonzero(_words(struct, kind, count) == _expected(struct, name)) * width) for struct in structs]
+        places = [
+            set(np.flatnonzero(_words(struct, kind, count) == _expected(struct, name)) * width) for struct in structs
+        ]
         common = sorted(set.intersection(*places))
         if common and common[-1] - common[0] == (len(common) - 1) * width:
             return int(common[-1])
-    raise CallbackError(f"MuJoCo {mujoco.__version__}: cannot find {type(structs[0]).__name__}.{name} in memory; install mujoco 4.0")
+    raise CallbackError(
+        f"MuJoCo {mujoco.__version__}: cannot find {type(structs[0]).__name__}.{name} in memory; install mujoco 4.0"
+    )
 
 
 def _expected(struct: Any, name: str) -> float:
@@ -114,11 +126,13 @@ def check_layout(layout: Layout) -> None:
         for name, offset in offsets.items():
             kind = _kind(name)
             seen = kind.from_address(struct._address + offset).value if offset % 4 == 0 else None
-            # An array is never empty here, so a following word that is equal shows that `offset` is that of an empty one before it.
+            # An array is never empty here, so a following word that is equal shows that `offset` is that of an empty
+            # one before it.
             aliased = kind is ctypes.c_uint64 and kind.from_address(struct._address + offset + 8).value == seen
             if aliased or seen != _expected(struct, name):
                 raise CallbackError(
-                    f"MuJoCo {mujoco.__version__}: {type(struct).__name__}.{name} is not at byte {offset}; install mujoco 4.0"
+                    f"MuJoCo {mujoco.__version__}: {type(struct).__name__}.{name} is not at byte {offset}; install "
+                    "mujoco 4.0"
                 )
 
 

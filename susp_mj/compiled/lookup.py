@@ -9,7 +9,8 @@ from .memory import doubles, plain
 
 @plain
 def cubic(v0, m0, v1, m1, u):
-    """Value and slope of the cubic from v0 to v1 with slopes m0 and m1 at a share u of the way; straight on beyond it."""
+    """Value and slope of the cubic from v0 to v1 with slopes m0 and m1 at a share u of the way; straight on beyond
+    it."""
     if u < 0.0:
         return v0 + m0 * u, m0
     if u > 1.0:

@@ -68,7 +68,14 @@ def _run(model, data, steps, every, final, freedoms, acceleration, addresses, co
 
 
 def advance(
-    model: mujoco.MjModel, data: mujoco.MjData, steps: int, every: int, fields: Sequence[str], out: np.ndarray, *, final: bool
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    steps: int,
+    every: int,
+    fields: Sequence[str],
+    out: np.ndarray,
+    *,
+    final: bool,
 ) -> tuple[int, bool]:
     """Take `steps` Runge-Kutta steps and record `fields` of the data before every `every`-th of them.
 
@@ -112,7 +119,9 @@ def _sources(data: mujoco.MjData, fields: Sequence[str]) -> tuple[np.ndarray, np
     return np.array(addresses, np.uint64), np.array(counts, np.int64)
 
 
-def attach_input(data: mujoco.MjData, block: np.ndarray | None, road: np.ndarray | None = None, driver: np.ndarray | None = None) -> None:
+def attach_input(
+    data: mujoco.MjData, block: np.ndarray | None, road: np.ndarray | None = None, driver: np.ndarray | None = None
+) -> None:
     """Let the control callback read inputs, road and driver; the caller keeps the blocks alive. None detaches."""
     data.userdata[:] = 0.0
     data.userdata[0] = 0.0 if block is None and road is None and driver is None else ACTUATOR_MARK

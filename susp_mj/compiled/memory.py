@@ -9,7 +9,8 @@ from numba import njit, types
 from numba.extending import intrinsic as _intrinsic
 
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "arcp", "nsz", "reassoc"}}
-"""Of all compiled code: a division by zero gives infinity, without a branch that looks for it; products and sums may be joined."""
+"""Of all compiled code: a division by zero gives infinity, without a branch that looks for it; products and sums may be
+joined."""
 plain: Any = njit(**OPTIONS)
 """Decorator of functions that compiled code calls."""
 intrinsic: Any = _intrinsic  # its decorated functions take one argument fewer than the type checker believes

@@ -1,7 +1,7 @@
 """Identity of the compiled code's sources.
 
-numba's disk cache looks at the file of the outermost function only; this number goes into every function that calls code of other
-files, so that a change in one of them is never missed.
+numba's disk cache looks at the file of the outermost function only; this number goes into every function that calls
+code of other files, so that a change in one of them is never missed.
 """
 
 from __future__ import annotations

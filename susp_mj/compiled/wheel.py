@@ -1,4 +1,5 @@
-"""One wheel of the compiled car: where it is and how it stands, what its tyre does, and what that does to every freedom."""
+"""One wheel of the compiled car: where it is and how it stands, what its tyre does, and what that does to every
+freedom."""
 
 from __future__ import annotations
 
@@ -84,14 +85,17 @@ from .vectors import arc_sine, combined, cross, dot, sine_cosine, turned, turned
 MOST_KAPPA, MOST_TAN_ALPHA = 1.5, 3.0
 """Largest slips that sliding leads to, at standstill too."""
 SLOW = 2.5
-"""Below this rolling speed [m/s] the slips' rates add to the forces, a damping without which a standing car would sway for ever."""
+"""Below this rolling speed [m/s] the slips' rates add to the forces, a damping without which a standing car would sway
+for ever."""
 SLOW_SLIP = 0.07
 """Slip per sliding speed [s/m] that is added at standstill: 0.02 s over a relaxation length of 0.3 m."""
 HELD_SLIP, HELD_TIME = 0.08, 0.05
-"""Coming to rest, a tyre that slid is wound up as far as its friction carries and no further: slips beyond the first fade within the second
-[s]. As a spring of the relaxation length a slip of 1 would throw the car back by half a metre."""
+"""Coming to rest, a tyre that slid is wound up as far as its friction carries and no further: slips beyond the first
+fade within the second [s]. As a spring of the relaxation length a slip of 1 would throw the car back by half a
+metre."""
 SMALLEST_RELAXATION, SMALLEST_TIME = 0.05, 7e-4
-"""Relaxation length [m] and time [s] of a tyre that hardly touches the road, however fast it slips: what steps of 1 ms integrate."""
+"""Relaxation length [m] and time [s] of a tyre that hardly touches the road, however fast it slips: what steps of 1 ms
+integrate."""
 SLIDING_SLIP = 0.15
 """Slip s_c at which the relaxation length has halved, about that of the largest force."""
 BUSHING_TIME = 0.005
@@ -102,8 +106,8 @@ BUSHING_TIME = 0.005
 def slip_rate(slip, sliding, rolling, relaxation, largest):
     """As `elements.tyres.slip.slip_rate`, for large slips and for a wheel that spins in the air too.
 
-    The relaxation length falls as ``sigma/(1 + (s/s_c)²)``, with the slope of the force over the slip: a tyre that slides is wound
-    up no further than its friction carries, and a locked wheel that grips again does not spring back.
+    The relaxation length falls as ``sigma/(1 + (s/s_c)²)``, with the slope of the force over the slip: a tyre that
+    slides is wound up no further than its friction carries, and a locked wheel that grips again does not spring back.
     """
     speed = max(abs(rolling), abs(sliding) / largest)
     length = relaxation / (1.0 + slip * slip / (SLIDING_SLIP * SLIDING_SLIP))
@@ -125,7 +129,8 @@ def steered(head, wheel, data, angle, angle_rate):
 
 @plain
 def guided(wheel, base, state, travel, steer):
-    """Path of the contact patch and slopes, toe and camber with compliance and their slopes, swing and slope, as for the left wheel."""
+    """Path of the contact patch and slopes, toe and camber with compliance and their slopes, swing and slope, as for
+    the left wheel."""
     side = wheel[SIDE]
     out, out_slope, ahead, ahead_slope = both_looked_up(doubles(place_of(base, wheel[PATH])), travel)
     toe, toe_slope, camber, camber_slope = both_between(place_of(base, wheel[ANGLES]), travel, side * steer)
@@ -146,7 +151,8 @@ def guided(wheel, base, state, travel, steer):
 
 @plain
 def standing_on(wheel, road, r, hub, lift):
-    """Normal of the road below a hub, distance from hub to road along the body's z axis, height and friction of the road.
+    """Normal of the road below a hub, distance from hub to road along the body's z axis, height and friction of the
+    road.
 
     The road is the plane that touches it where an unloaded wheel would.
     """
@@ -178,7 +184,8 @@ def oriented(r, sine, cosine, lean, normal):
 
 @plain
 def gripping(wheel, base, state, signals, camber, load, rolling, lateral, spin, swinging, friction, pressed, pedal):
-    """Forces of the tyre from its lagged slips, rates of its states, and the brake; returns brake torque and rolling radius.
+    """Forces of the tyre from its lagged slips, rates of its states, and the brake; returns brake torque and rolling
+    radius.
 
     The wheel turns with `spin` against the body; the brake rubs on the carrier, which turns with `swinging`.
     """
@@ -189,7 +196,9 @@ def gripping(wheel, base, state, signals, camber, load, rolling, lateral, spin, 
         slip -= fade * (rolling - spin * (wheel[RADIUS] - pressed / 3.0))
         tangent_slip += fade * lateral
     parameters = doubles(place_of(base, wheel[TYRE_PARAMETERS]))
-    contact_call(int(wheel[TYRE_LAW]), slip, tangent_slip, camber, load, rolling, lateral, friction, parameters, signals)
+    contact_call(
+        int(wheel[TYRE_LAW]), slip, tangent_slip, camber, load, rolling, lateral, friction, parameters, signals
+    )
     sliding = rolling - spin * signals[ROLLING_RADIUS]
     kappa_rate = slip_rate(kappa, -sliding, rolling, signals[SIGMA_X], MOST_KAPPA)
     tangent_rate = slip_rate(tangent, lateral, rolling, signals[SIGMA_Y], MOST_TAN_ALPHA)
@@ -204,7 +213,8 @@ def gripping(wheel, base, state, signals, camber, load, rolling, lateral, spin, 
 
 @plain
 def pushed_by_rig(wheel, data, state, signals, spin):
-    """Forces of the rig in place of the tyre's; the slips fade, and the wheel is held. Returns torque and rolling radius."""
+    """Forces of the rig in place of the tyre's; the slips fade, and the wheel is held. Returns torque and rolling
+    radius."""
     ctrl = doubles(data.ctrl)
     for i in range(FX, ROLLING_RADIUS + 1):
         signals[i] = 0.0
@@ -219,7 +229,9 @@ def pushed_by_rig(wheel, data, state, signals, spin):
 
 
 @plain
-def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, velocity, spin_world, angle, angle_rate, drive, pedal):  # noqa: PLR0915
+def wheel_forces(  # noqa: PLR0915
+    head, wheel, base, model, data, signals, road, r, origin, velocity, spin_world, angle, angle_rate, drive, pedal
+):
     """One wheel: where it is and how it stands, what the tyre does, and what that does to every freedom of the car.
 
     Returns force [N] and moment [N m] about the chassis' origin, in inertial axes.
@@ -234,8 +246,9 @@ def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, veloc
         wheel, base, state, travel, steer
     )  # fmt: skip
 
-    # the contact patch in body axes: it turns about the steering axis and lies below the wheel's centre, which moves along its path;
-    # the path of the patch itself is that of a wheel held by its carrier, which swings about the lateral axis
+    # the contact patch in body axes: it turns about the steering axis and lies below the wheel's centre, which moves
+    # along its path; the path of the patch itself is that of a wheel held by its carrier, which swings about the
+    # lateral axis
     sine, cosine = sine_cosine(steer)
     arm_x, arm_y = -wheel[TRAIL], side * wheel[SCRUB]
     lever_x, lever_y = cosine * arm_x - sine * arm_y, sine * arm_x + cosine * arm_y
@@ -246,7 +259,11 @@ def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, veloc
     hub = (hub[0] + origin[0], hub[1] + origin[1], hub[2] + origin[2])
     normal, loaded, height, friction = standing_on(wheel, road, r, hub, doubles(data.ctrl)[tyre])
     lever = turned(r, (place[0], place[1], place[2] - loaded))
-    own = (centre_slope * travel_rate - lever_y * steer_rate, side * out_slope * travel_rate + lever_x * steer_rate, travel_rate)
+    own = (
+        centre_slope * travel_rate - lever_y * steer_rate,
+        side * out_slope * travel_rate + lever_x * steer_rate,
+        travel_rate,
+    )
     own, swept = turned(r, own), cross(spin_world, lever)
     moving = (velocity[0] + swept[0] + own[0], velocity[1] + swept[1] + own[1], velocity[2] + swept[2] + own[2])
 
@@ -261,7 +278,8 @@ def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, veloc
     rolling, lateral = dot(moving, forward), dot(moving, leftward)
     if head[RIG] == 0.0:
         torque, rolling_radius = gripping(
-            wheel, base, state, signals, road_camber, load, rolling, lateral, spin, swing_slope * travel_rate, friction, pressed, pedal
+            wheel, base, state, signals, road_camber, load, rolling, lateral, spin, swing_slope * travel_rate,
+            friction, pressed, pedal
         )  # fmt: skip
         on_carrier = torque
         about_axis = signals[MY] - signals[FX] * (rolling_radius - loaded)
@@ -282,7 +300,8 @@ def wheel_forces(head, wheel, base, model, data, signals, road, r, origin, veloc
         push_body[2]
         + push_body[0] * centre_slope
         + push_body[1] * side * out_slope
-        - side * ((heading_cosine * twist_body[0] + heading_sine * twist_body[1]) * camber_slope + twist_body[2] * toe_slope)
+        - side
+        * ((heading_cosine * twist_body[0] + heading_sine * twist_body[1]) * camber_slope + twist_body[2] * toe_slope)
         + on_carrier * swing_slope
     )
     if wheel[STEER_FREEDOM] >= 0.0:

@@ -23,8 +23,8 @@ def spring_at_component(spring: Spring, ratio: MotionRatio) -> TableSpring:
         ratio: of the spring.
 
     Returns:
-        Force [N] over the spring's own travel [m] from the design position, its stops where the wheel's are. Their rate is
-        divided by i² of the design position.
+        Force [N] over the spring's own travel [m] from the design position, its stops where the wheel's are. Their rate
+        is divided by i² of the design position.
 
     Raises:
         InputError: the ratio rises so fast that the component would have to soften as it is compressed, or the spring
@@ -43,7 +43,8 @@ def spring_at_wheel(spring: Spring, ratio: MotionRatio) -> TableSpring:
         ratio: of the spring.
 
     Raises:
-        InputError: the ratio falls so fast that the wheel would lose force in compression, or the spring has no preload.
+        InputError: the ratio falls so fast that the wheel would lose force in compression, or the spring has no
+            preload.
     """
     s = _sampled(spring, ratio.component_travel(ratio.travel))
     x = ratio.wheel_travel(s)
@@ -62,7 +63,8 @@ def damper_at_component(damper: Damper, ratio: MotionRatio, travel: float = 0.0)
 
 
 def damper_at_wheel(damper: Damper, ratio: MotionRatio, travel: float = 0.0) -> TableDamper:
-    """A damper's characteristic effective at the wheel: ``v_wheel = v_comp/i``, ``F_wheel = i F_comp`` at a wheel travel [m]."""
+    """A damper's characteristic effective at the wheel: ``v_wheel = v_comp/i``, ``F_wheel = i F_comp`` at a wheel
+    travel [m]."""
     return _damper(damper, 1.0 / float(ratio.at(travel)))
 
 
@@ -85,7 +87,9 @@ def _table(spring: Spring, deflection: FloatArray, force: FloatArray, factor: fl
             key="ratio",
         )
     ends = {"rebound": float(deflection[0]), "compression": float(deflection[-1]), "rate": spring.stops.rate * factor}
-    return validate(TableSpring, {"deflection": deflection.tolist(), "force": force.tolist(), "stops": ends}, key="spring")
+    return validate(
+        TableSpring, {"deflection": deflection.tolist(), "force": force.tolist(), "stops": ends}, key="spring"
+    )
 
 
 def _force(spring: Spring, travel: FloatArray) -> FloatArray:
@@ -96,7 +100,8 @@ def _force(spring: Spring, travel: FloatArray) -> FloatArray:
 
 
 def _sampled(spring: Spring, others: ArrayLike) -> FloatArray:
-    """Travels between the stops: both stops, a spring's own table, `others` (points of the ratio), a grid between them."""
+    """Travels between the stops: both stops, a spring's own table, `others` (points of the ratio), a grid between
+    them."""
     low, high = spring.stops.rebound, spring.stops.compression
     own = spring.deflection if isinstance(spring, TableSpring) else ()
     fixed = np.unique(np.concatenate([[low, 0.0, high], own, np.asarray(others, float)]))

@@ -1,9 +1,10 @@
-"""Hydraulic dampers from their resistances: laminar gaps, orifices, blow-off valves, in series and parallel (thesis appendix 2).
+"""Hydraulic dampers from their resistances: laminar gaps, orifices, blow-off valves, in series and parallel (thesis
+appendix 2).
 
-A piston of effective area A that moves at v displaces the flow ``Q = A v`` through a hydraulic resistance, whose pressure
-drop Δp acts back on it: ``F = A Δp``. Of a twin-tube damper, A is the ring area in rebound (piston valve) and the rod's
-area in compression (bottom valve, the piston's check valve open); of a single-tube damper the ring area in both. Gas force,
-cavitation and temperature are left out.
+A piston of effective area A that moves at v displaces the flow ``Q = A v`` through a hydraulic resistance, whose
+pressure drop Δp acts back on it: ``F = A Δp``. Of a twin-tube damper, A is the ring area in rebound (piston valve) and
+the rod's area in compression (bottom valve, the piston's check valve open); of a single-tube damper the ring area in
+both. Gas force, cavitation and temperature are left out.
 """
 
 from __future__ import annotations
@@ -83,7 +84,8 @@ class Laminar(_Single):
 class Orifice(_Single):
     """A sharp-edged hole in turbulent flow: ``Δp = ρ/2 (Q/(α A))²``; a force with the square of speed.
 
-    Its slope at rest is 0: with a mount in series, put a laminar channel behind it, or the damper is infinitely fast there.
+    Its slope at rest is 0: with a mount in series, put a laminar channel behind it, or the damper is infinitely fast
+    there.
 
     Attributes:
         area: A [m²].
@@ -104,10 +106,12 @@ class Orifice(_Single):
 
 @dataclass(frozen=True)
 class BlowOff(_Single):
-    """A preloaded valve: shut up to p0, then its plate lifts in proportion to the pressure until it is fully open at p1.
+    """A preloaded valve: shut up to p0, then its plate lifts in proportion to the pressure until it is fully open at
+    p1.
 
-    ``Q = α A (Δp - p0)/(p1 - p0) sqrt(2 Δp/ρ)`` from p0 to p1, an orifice of area A above. The preload of its spring over
-    the area of its plate is p0, the spring's rate decides p1. It needs a channel in parallel that is always open (a bleed).
+    ``Q = α A (Δp - p0)/(p1 - p0) sqrt(2 Δp/ρ)`` from p0 to p1, an orifice of area A above. The preload of its spring
+    over the area of its plate is p0, the spring's rate decides p1. It needs a channel in parallel that is always open
+    (a bleed).
 
     Attributes:
         opening_pressure: p0 [Pa].
@@ -126,7 +130,10 @@ class BlowOff(_Single):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.full_pressure <= self.opening_pressure:
-            message = f"{self.full_pressure:g} Pa is not allowed; it must exceed the opening pressure of {self.opening_pressure:g} Pa"
+            message = (
+                f"{self.full_pressure:g} Pa is not allowed; it must exceed the opening pressure of "
+                f"{self.opening_pressure:g} Pa"
+            )
             raise InputError(message, key="full_pressure")
 
     def pressure(self, flow: float) -> float:
@@ -230,7 +237,10 @@ def hydraulic_damper(
         area = positive(given, "m²", f"{key}_area")
         shut = resistance.pressure(0.0)
         if shut > 0:
-            raise InputError(f"shut up to {shut * area:.0f} N ({shut / 1e5:.1f} bar); put a channel beside its blow-off valve", key=key)
+            raise InputError(
+                f"shut up to {shut * area:.0f} N ({shut / 1e5:.1f} bar); put a channel beside its blow-off valve",
+                key=key,
+            )
         forces.append(area * np.array([resistance.pressure(area * v) for v in speed]))
     data: dict[str, Any] = {
         "speed": np.concatenate([-speed[::-1], speed]).tolist(),

@@ -14,15 +14,17 @@ from ..units import Length, Quantity
 
 
 class MotionRatio(Description):
-    """Motion ratio ``i = ds/dx`` of component travel s to wheel travel x, constant or a table over x (thesis appendix 5).
+    """Motion ratio ``i = ds/dx`` of component travel s to wheel travel x, constant or a table over x (thesis appendix
+    5).
 
-    Both travels [m] are 0 in the design position and positive in compression. The virtual work of both sides is the same,
-    ``F_wheel dx = F_comp ds``, hence ``F_comp = F_wheel/i``, ``v_comp = i v_wheel`` and
+    Both travels [m] are 0 in the design position and positive in compression. The virtual work of both sides is the
+    same, ``F_wheel dx = F_comp ds``, hence ``F_comp = F_wheel/i``, ``v_comp = i v_wheel`` and
 
-        ``k_comp = dF_comp/ds = d(F_wheel/i)/dx / i = k_wheel/i² - F_wheel i'/i³``,  ``k_wheel = i² k_comp + F_comp i'``.
+        ``k_comp = dF_comp/ds = d(F_wheel/i)/dx / i = k_wheel/i² - F_wheel i'/i³``,  ``k_wheel = i² k_comp + F_comp
+        i'``.
 
-    The second term is there wherever the ratio changes with travel: a rising ratio stiffens the wheel under load. A table
-    is interpolated by PCHIP (monotone between its points) and keeps its end values beyond them. A file writes
+    The second term is there wherever the ratio changes with travel: a rising ratio stiffens the wheel under load. A
+    table is interpolated by PCHIP (monotone between its points) and keeps its end values beyond them. A file writes
     ``spring_ratio = 0.7`` or ``spring_ratio = { travel = ["-100 mm", "100 mm"], ratio = [0.65, 0.75] }``.
 
     Attributes:
@@ -45,10 +47,15 @@ class MotionRatio(Description):
     @model_validator(mode="after")
     def _table(self) -> MotionRatio:
         if len(self.travel) != (len(self.ratio) if len(self.ratio) > 1 else 0):
-            raise wrong(f"{len(self.ratio)} values are not allowed; give one number, or as many as travels, two at least", "ratio")
+            raise wrong(
+                f"{len(self.ratio)} values are not allowed; give one number, or as many as travels, two at least",
+                "ratio",
+            )
         for i in range(1, len(self.travel)):
             if self.travel[i] <= self.travel[i - 1]:
-                raise wrong(f"{self.travel[i]:g} follows {self.travel[i - 1]:g}; travels must increase strictly", f"travel.{i}")
+                raise wrong(
+                    f"{self.travel[i]:g} follows {self.travel[i - 1]:g}; travels must increase strictly", f"travel.{i}"
+                )
         return self
 
     def at(self, travel: ArrayLike) -> FloatArray:

@@ -1,4 +1,5 @@
-"""Progressive springs of steel and rubber: auxiliary springs, springs in series, coils of varying pitch (thesis appendix 3).
+"""Progressive springs of steel and rubber: auxiliary springs, springs in series, coils of varying pitch (thesis
+appendix 3).
 
 Each function returns the component's force over its own travel from the design position, compression positive; the
 force there is `preload`. `spring_at_wheel` takes it to the wheel. Every value is SI or a text with its unit. The curves
@@ -31,7 +32,8 @@ def auxiliary_springs(rate: Any, engagements: Any, rates: Any, *, preload: Any, 
 
     Args:
         rate: k [N/m] of the main spring.
-        engagements: travel s_j [m] from which each auxiliary spring acts; below 0 it acts in the design position already.
+        engagements: travel s_j [m] from which each auxiliary spring acts; below 0 it acts in the design position
+            already.
         rates: k_j [N/m] of the auxiliary springs.
         preload: F0 [N], all springs together.
         stops: of the component [m].
@@ -44,7 +46,9 @@ def auxiliary_springs(rate: Any, engagements: Any, rates: Any, *, preload: Any, 
     stiffness = positives(rates, "N/m", "rates", len(begins))
 
     def characteristic(s: FloatArray) -> FloatArray:
-        parts = [k * (np.maximum(0.0, s - begin) - max(0.0, -begin)) for begin, k in zip(begins, stiffness, strict=True)]
+        parts = [
+            k * (np.maximum(0.0, s - begin) - max(0.0, -begin)) for begin, k in zip(begins, stiffness, strict=True)
+        ]
         return force + main * s + np.sum(parts, axis=0)
 
     return _straight_pieces(characteristic, begins, stops)
@@ -53,8 +57,8 @@ def auxiliary_springs(rate: Any, engagements: Any, rates: Any, *, preload: Any, 
 def series_springs(rates: Any, travels: Any, *, preload: Any, stops: Stops) -> TableSpring:
     """Springs in series, each of which may become solid (figure A3.3).
 
-    Two soft ones give ``c = c1 c2/(c1 + c2)``; once the first is coil-bound, at the force ``c1 b1``, the rate is that of
-    the other. Any number works alike: ``1/c`` is the sum over those not solid.
+    Two soft ones give ``c = c1 c2/(c1 + c2)``; once the first is coil-bound, at the force ``c1 b1``, the rate is that
+    of the other. Any number works alike: ``1/c`` is the sum over those not solid.
 
     Args:
         rates: c_j [N/m].
@@ -68,19 +72,29 @@ def series_springs(rates: Any, travels: Any, *, preload: Any, stops: Stops) -> T
     """
     stiffness = positives(rates, "N/m", "rates")
     if isinstance(travels, str) or not hasattr(travels, "__len__") or len(travels) != len(stiffness):
-        raise InputError(f"give one for each of {len(stiffness)} rates, None where a spring never becomes solid", key="travels")
+        raise InputError(
+            f"give one for each of {len(stiffness)} rates, None where a spring never becomes solid", key="travels"
+        )
     free = [np.inf if each is None else positive(each, "m", f"travels.{i}") for i, each in enumerate(travels)]
     return _in_series(np.array(stiffness), np.array(free), positive(preload, "N", "preload"), stops)
 
 
 def helical_spring(
-    wire_diameter: Any, coil_diameter: Any, turns: Any, pitch: Any, *, preload: Any, stops: Stops, shear_modulus: Any = SHEAR_MODULUS
+    wire_diameter: Any,
+    coil_diameter: Any,
+    turns: Any,
+    pitch: Any,
+    *,
+    preload: Any,
+    stops: Stops,
+    shear_modulus: Any = SHEAR_MODULUS,
 ) -> TableSpring:
-    """A helical spring of segments with different pitch; the coils of small pitch become solid first (figures A3.2, A3.4).
+    """A helical spring of segments with different pitch; the coils of small pitch become solid first (figures A3.2,
+    A3.4).
 
     A segment of n turns has the rate ``c = G d⁴/(8 D³ n)`` and becomes solid after ``n (p - d)``; the segments are in
-    series. Different coil diameters make a barrel; its coils are taken to become solid as those of a cylinder, not to sink
-    into each other. Ends that lie flat are not active and do not count as turns.
+    series. Different coil diameters make a barrel; its coils are taken to become solid as those of a cylinder, not to
+    sink into each other. Ends that lie flat are not active and do not count as turns.
 
     Args:
         wire_diameter: d [m], one value or one for each segment.
@@ -92,7 +106,8 @@ def helical_spring(
         shear_modulus: G [Pa].
 
     Raises:
-        InputError: a value out of range, the spring is unloaded before the rebound stop or solid before the compression stop.
+        InputError: a value out of range, the spring is unloaded before the rebound stop or solid before the compression
+            stop.
     """
     n = np.array(positives(turns, "", "turns"))
     count = len(n)
@@ -123,14 +138,21 @@ def _in_series(rate: FloatArray, travel: FloatArray, preload: float, stops: Stop
     design = float(np.interp(preload, forces, compressions))
     if last == 0 and compressions[-1] - design < stops.compression:
         raise InputError(
-            f"{stops.compression} m is not allowed; all coils are solid at {compressions[-1] - design:.4f} m", key="stops.compression"
+            f"{stops.compression} m is not allowed; all coils are solid at {compressions[-1] - design:.4f} m",
+            key="stops.compression",
         )
     if design + stops.rebound < 0:
-        raise InputError(f"{stops.rebound} m is not allowed; the spring is unloaded at {-design:.4f} m", key="stops.rebound")
-    return _straight_pieces(lambda s: np.interp(design + s, compressions, forces), (compressions - design).tolist(), stops)
+        raise InputError(
+            f"{stops.rebound} m is not allowed; the spring is unloaded at {-design:.4f} m", key="stops.rebound"
+        )
+    return _straight_pieces(
+        lambda s: np.interp(design + s, compressions, forces), (compressions - design).tolist(), stops
+    )
 
 
-def _straight_pieces(characteristic: Callable[[FloatArray], FloatArray], kinks: list[float], stops: Stops) -> TableSpring:
+def _straight_pieces(
+    characteristic: Callable[[FloatArray], FloatArray], kinks: list[float], stops: Stops
+) -> TableSpring:
     """Table of a curve that is straight between its kinks [m]: each kink, a point on either side, and the stops."""
     low, high = stops.rebound, stops.compression
     least = 1e-6 * (high - low)

@@ -14,8 +14,8 @@ AIR_DENSITY = 1.225
 class Aerodynamics(Description):
     """Air forces in the car's axes at the reference point: on the ground, in the middle of wheelbase and track.
 
-    With u the velocity of the air relative to the car (wind less the car's own), ``V² = u_x² + u_y²`` and the angle of the
-    relative wind ``beta = atan2(u_y, -u_x)``, positive for wind from the right (air that flows to the left):
+    With u the velocity of the air relative to the car (wind less the car's own), ``V² = u_x² + u_y²`` and the angle of
+    the relative wind ``beta = atan2(u_y, -u_x)``, positive for wind from the right (air that flows to the left):
 
         drag        ``F_x = 1/2 rho A drag V u_x``            rearwards when driving, with c_w = drag
         lift        ``F_z = 1/2 rho A lift_front V²``          at the front axle, upwards; `lift_rear` likewise

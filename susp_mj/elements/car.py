@@ -18,13 +18,14 @@ CAR_MARK = 20070614.0
 CAR_NUMERIC = "susp_mj_car"
 MOST_GEARS = 12
 CRUISE_ABOVE, CRUISE_DOWN = 2.8, 1.2
-"""A car that begins to run cruises in the highest gear in which the engine turns so many times faster than idling, and with the speed
-controller in charge it shifts down below the second."""
+"""A car that begins to run cruises in the highest gear in which the engine turns so many times faster than idling, and
+with the speed controller in charge it shifts down below the second."""
 
 HEAD = (
     "mark", "length", "freedoms", "rig",
     # actuators whose `ctrl` are the inputs; -1 where there is none
-    "steering_wheel", "driver", "speed_target", "speed_control", "engine", "brake", "wind_x", "wind_y", "heave_target", "roll_target",
+    "steering_wheel", "driver", "speed_target", "speed_control", "engine", "brake", "wind_x", "wind_y", "heave_target",
+    "roll_target",
     "pitch_target",
     # steering
     "steering_ratio", "steering_limit", "wheelbase", "ground_z",
@@ -39,13 +40,15 @@ HEAD = (
     "gears", *(f"gear_{i}" for i in range(1, MOST_GEARS + 1)), "full_torque",
     "drag_torque",
     # rig that holds the body
-    "design_x", "design_y", "design_z", "rig_stiffness", "rig_damping", "rig_rate_x", "rig_rate_y", "rig_rate_z", "rig_damping_x",
+    "design_x", "design_y", "design_z", "rig_stiffness", "rig_damping", "rig_rate_x", "rig_rate_y", "rig_rate_z",
+    "rig_damping_x",
     "rig_damping_y", "rig_damping_z",
 )  # fmt: skip
 """Numbers of the car as a whole; tables are given by their place in the block."""
 WHEEL = (
     "side", "x", "y", "z", "travel_freedom", "steer_freedom", "spin_freedom", "tyre", "steering", "ackermann", "trail",
-    "scrub", "drive_share", "brake_torque", "tyre_law", "tyre_parameters", "radius", "stiffness", "damping", "design_height", "path",
+    "scrub", "drive_share", "brake_torque", "tyre_law", "tyre_parameters", "radius", "stiffness", "damping",
+    "design_height", "path",
     "angles", "swing", "elastic_lateral", "elastic_longitudinal", "elastic_aligning", "rig_longitudinal", "rig_lateral",
     "rig_aligning",
 )  # fmt: skip
@@ -54,41 +57,46 @@ CONTROLS = ("steering_wheel", "driver", "speed_target", "speed_control", "engine
 RIG_CONTROLS = ("heave_target", "roll_target", "pitch_target")
 """Numbers of the head that are actuators."""
 CURVES = {
-    "full_torque": 1, "drag_torque": 1, "path": 2, "swing": 1, "elastic_lateral": 2, "elastic_longitudinal": 1, "elastic_aligning": 1,
+    "full_torque": 1, "drag_torque": 1, "path": 2, "swing": 1, "elastic_lateral": 2, "elastic_longitudinal": 1,
+    "elastic_aligning": 1,
 }  # fmt: skip
 """Numbers that are places of a `table`, and how many curves it has."""
 OPTIONAL = ("swing", "elastic_lateral", "elastic_longitudinal", "elastic_aligning")
 """Tables that may be missing: place 0."""
 CAR_SIGNALS = (
-    "gear", "shift_began", "trim_angle", "trimming", "driver_rate", "control_rate", "engine_rate", "steering_wheel_angle",
+    "gear", "shift_began", "trim_angle", "trimming", "driver_rate", "control_rate", "engine_rate",
+    "steering_wheel_angle",
     "accelerator", "brake_pedal", "engine_speed", "engine_torque", "path_deviation", "control_force", "speed",
 )  # fmt: skip
 """What the car writes; `gear`, `shift_began` and `trim_angle` it also remembers from one step to the next. While
 `trimming` is not 0 it does not shift, and its pedal knows no limits."""
 WHEEL_SIGNALS = (
     # the tyre law's results, in its order
-    "longitudinal_force", "lateral_force", "overturning_moment", "rolling_moment", "aligning_moment", "relaxation_x", "relaxation_y",
-    "rolling_radius", "wheel_load", "slip_ratio", "slip_angle", "camber_angle", "steer_angle", "inclination_angle", "wheel_speed",
+    "longitudinal_force", "lateral_force", "overturning_moment", "rolling_moment", "aligning_moment", "relaxation_x",
+    "relaxation_y",
+    "rolling_radius", "wheel_load", "slip_ratio", "slip_angle", "camber_angle", "steer_angle", "inclination_angle",
+    "wheel_speed",
     "drive_torque", "brake_torque", "road_height", "wheel_displacement", "contact_x", "contact_y", "friction",
     # rates of the wheel's inner states, in their order
     "slip_ratio_rate", "slip_rate", "brake_rate", "elastic_x_rate", "elastic_y_rate", "elastic_moment_rate",
 )  # fmt: skip
 """What each wheel writes; `slip_angle` as its tangent."""
 WHEEL_STATES = 6
-"""Inner states of a wheel: kappa, tan alpha, brake bristle, and F_x, F_y, M_z as the elastic suspension feels them, a little later."""
+"""Inner states of a wheel: kappa, tan alpha, brake bristle, and F_x, F_y, M_z as the elastic suspension feels them, a
+little later."""
 SIGNALS = (*CAR_SIGNALS, *(f"{corner}_{signal}" for corner in CORNERS for signal in WHEEL_SIGNALS))
 """Names of everything the car writes, in order."""
 
 
 def table(places: Sequence[float], *curves: Sequence[float] | np.ndarray, smooth: bool, count: int = 33) -> np.ndarray:
-    """Curves over one quantity as the compiled car reads them: ``start, 1/spacing, n``, then of each even point, curve by curve,
-    its value and ``slope * spacing``. Between the points they are cubic, outside they go straight on.
+    """Curves over one quantity as the compiled car reads them: ``start, 1/spacing, n``, then of each even point, curve
+    by curve, its value and ``slope * spacing``. Between the points they are cubic, outside they go straight on.
 
     Args:
         places: (n,) strictly increasing.
         curves: (n,) each.
-        smooth: cubic splines through the given points, for mechanisms; else monotone cubics, for measured force curves, which must
-            not overshoot.
+        smooth: cubic splines through the given points, for mechanisms; else monotone cubics, for measured force curves,
+            which must not overshoot.
         count: number of even points.
     """
     from scipy.interpolate import CubicSpline, PchipInterpolator
@@ -98,13 +106,16 @@ def table(places: Sequence[float], *curves: Sequence[float] | np.ndarray, smooth
     columns: list[np.ndarray] = []
     for values in curves:
         y = np.asarray(values, float)
-        curve = CubicSpline(x, y, bc_type="not-a-knot" if len(x) > 2 else "natural") if smooth else PchipInterpolator(x, y)
+        curve = (
+            CubicSpline(x, y, bc_type="not-a-knot" if len(x) > 2 else "natural") if smooth else PchipInterpolator(x, y)
+        )
         columns += [curve(even), curve(even, 1) * spacing]
     return np.concatenate([[even[0], 1 / spacing, count], np.column_stack(columns).ravel()])
 
 
 def table_of_tables(start: float, spacing: float, tables: Sequence[np.ndarray]) -> np.ndarray:
-    """A `table` for each even value of a second quantity: ``start, 1/spacing, m, length of a table``, then the tables one after another."""
+    """A `table` for each even value of a second quantity: ``start, 1/spacing, m, length of a table``, then the tables
+    one after another."""
     return np.concatenate([[start, 1 / spacing, len(tables), len(tables[0])], *tables])
 
 
@@ -120,13 +131,16 @@ def car_block(
 
     Args:
         head, wheels: values by name; names left out are 0.
-        tables: (name, wheel number or -1 for the head, numbers); each is put behind and its place entered under its name. Equal
-            tables share one place.
+        tables: (name, wheel number or -1 for the head, numbers); each is put behind and its place entered under its
+            name. Equal tables share one place.
     """
     unknown = {*head} - {*HEAD} | {name for wheel in wheels for name in wheel} - {*WHEEL}
     if unknown:
         raise KeyError(f"not in the block: {sorted(unknown)}")
-    block = [*(float(head.get(name, 0.0)) for name in HEAD), *(float(wheel.get(name, 0.0)) for wheel in wheels for name in WHEEL)]
+    block = [
+        *(float(head.get(name, 0.0)) for name in HEAD),
+        *(float(wheel.get(name, 0.0)) for wheel in wheels for name in WHEEL),
+    ]
     behind: dict[bytes, int] = {}
     for name, wheel, numbers in tables:
         content = np.asarray(numbers, float).tobytes()

@@ -154,7 +154,9 @@ class ZonedDamper(Damper):
                 value = (float(parts[0]), float(parts[1])) if len(parts) == 2 else None
             except ValueError:
                 value = None
-        numbers = isinstance(value, (tuple, list)) and len(value) == 2 and all(type(part) in (int, float) for part in value)
+        numbers = (
+            isinstance(value, (tuple, list)) and len(value) == 2 and all(type(part) in (int, float) for part in value)
+        )
         if not numbers or not all(1e-3 <= part <= 1e3 for part in value):
             raise wrong("write the ratio of compression to rebound as two numbers from 0.001 to 1000, like '1:2'")
         return tuple(value)
@@ -196,12 +198,17 @@ class TableDamper(Damper):
             values = getattr(self, key)
             for i in range(1, len(values)):
                 if values[i] <= values[i - 1]:
-                    raise wrong(f"{values[i]:g} follows {values[i - 1]:g}; a damper must increase strictly", f"{key}.{i}")
+                    raise wrong(
+                        f"{values[i]:g} follows {values[i - 1]:g}; a damper must increase strictly", f"{key}.{i}"
+                    )
         if not self.speed[0] < 0 < self.speed[-1]:
             raise wrong("must reach from rebound (below 0) to compression (above 0)", "speed")
         for i, (speed, force) in enumerate(zip(self.speed, self.force, strict=True)):
             if np.sign(speed) != np.sign(force):
-                raise wrong(f"{force:g} N at {speed:g} m/s would feed energy in; force and speed need the same sign", f"force.{i}")
+                raise wrong(
+                    f"{force:g} N at {speed:g} m/s would feed energy in; force and speed need the same sign",
+                    f"force.{i}",
+                )
         return self
 
     def branches(self) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
@@ -210,7 +217,9 @@ class TableDamper(Damper):
         def outwards(sign: float) -> tuple[FloatArray, FloatArray]:
             side = sign * speed > 0
             order = np.argsort(np.abs(speed[side]))
-            return np.concatenate([[0.0], np.abs(speed[side])[order]]), np.concatenate([[0.0], np.abs(force[side])[order]])
+            return np.concatenate([[0.0], np.abs(speed[side])[order]]), np.concatenate(
+                [[0.0], np.abs(force[side])[order]]
+            )
 
         return outwards(1.0), outwards(-1.0)
 

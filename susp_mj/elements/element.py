@@ -56,7 +56,9 @@ def chosen_kind(data: Mapping[Any, Any], kinds: Mapping[str, type[Kind]]) -> typ
     if kind is None:
         raise PydanticCustomError("unknown_kind", "is required; {text}", {"text": choices(kinds), "key": "kind"})
     if not isinstance(kind, str) or kind not in kinds:
-        raise PydanticCustomError("unknown_kind", "{text}", {"text": f"'{kind}' unknown; {choices(kinds, kind)}", "key": "kind"})
+        raise PydanticCustomError(
+            "unknown_kind", "{text}", {"text": f"'{kind}' unknown; {choices(kinds, kind)}", "key": "kind"}
+        )
     return kinds[kind]
 
 

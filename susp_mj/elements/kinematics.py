@@ -15,13 +15,15 @@ from .tables import ORIGIN, AngleTable, check_increasing, check_length, check_ze
 
 
 class Kinematics(Description):
-    """Kinematics of one wheel, as measured on a rig with the body held: tables over its travel, toe and camber also over steering.
+    """Kinematics of one wheel, as measured on a rig with the body held: tables over its travel, toe and camber also
+    over steering.
 
-    Everything is given for the left wheel, with signs that need no side: outwards, toe-in, top outwards. The right wheel
-    is its mirror image: the table is read at minus its steer angle. A positive slope ``dy/dz`` of the lateral path lifts
-    the body when the tyre is pushed inwards, and the roll centre stands ``(track/2) dy/dz`` above the ground; a positive
-    slope ``dx/dz`` of the longitudinal path lifts the body when the tyre is pushed rearwards. (Virtual work: a force
-    F_out, F_forward on the contact patch adds ``F_out y' + F_forward x'`` to the force that compresses the suspension.)
+    Everything is given for the left wheel, with signs that need no side: outwards, toe-in, top outwards. The right
+    wheel is its mirror image: the table is read at minus its steer angle. A positive slope ``dy/dz`` of the lateral
+    path lifts the body when the tyre is pushed inwards, and the roll centre stands ``(track/2) dy/dz`` above the
+    ground; a positive slope ``dx/dz`` of the longitudinal path lifts the body when the tyre is pushed rearwards.
+    (Virtual work: a force F_out, F_forward on the contact patch adds ``F_out y' + F_forward x'`` to the force that
+    compresses the suspension.)
 
     Attributes:
         travel: z [m], (n,) strictly increasing, with a point at 0 (design position); positive in compression. It must
@@ -30,9 +32,10 @@ class Kinematics(Description):
             the left. Empty: toe and camber depend on travel alone. Front axle only.
         lateral: y [m], (n,) movement of the contact patch outwards, 0 at travel 0. Empty: none.
         longitudinal: x [m], (n,) movement of the contact patch forwards, 0 at travel 0. Empty: none.
-        longitudinal_centre: [m], (n,) movement of the wheel centre forwards, 0 at travel 0, where the carrier turns about the
-            lateral axis as it travels. A brake holds the wheel on the carrier, so its force acts along the path of the
-            patch; a drive shaft turns it from the body, so its force acts along the path of the centre. Empty: as the patch.
+        longitudinal_centre: [m], (n,) movement of the wheel centre forwards, 0 at travel 0, where the carrier turns
+            about the lateral axis as it travels. A brake holds the wheel on the carrier, so its force acts along the
+            path of the patch; a drive shaft turns it from the body, so its force acts along the path of the centre.
+            Empty: as the patch.
         toe: [rad], (n,) or (n, m), positive toe-in; adds to the angle from the rack, so the left wheel stands at
             ``steer - toe``. At travel 0 it is the static toe. Empty: none.
         camber: [rad], (n,) or (n, m), to the body, positive with the top outwards. At travel 0 it is the static camber.
@@ -120,8 +123,8 @@ class Compliance(Description):
     """Elastic part of toe and camber of one wheel over the forces in its contact patch, added to the kinematics.
 
     Signs need no side, as in `Kinematics`; both wheels of an axle share the tables. Each table is 0 at force 0. In a
-    curve the force on the outer wheel points inwards: a front axle that understeers toes out there (toe below 0), a rear
-    axle toes in (above 0).
+    curve the force on the outer wheel points inwards: a front axle that understeers toes out there (toe below 0), a
+    rear axle toes in (above 0).
 
     Attributes:
         lateral_force: [N], strictly increasing, with a point at 0; force of the road on the tyre, positive inwards

@@ -23,8 +23,8 @@ The law sees ``own weight * own deflection + partner's weight * partner's deflec
 further on (0: none). The actuator's force is the factor times the law's. An anti-roll bar weighs 1 and -1.
 """
 USERDATA_HEADER = 4
-"""Doubles of mjData's `userdata` before the deflection speeds: the mark of a running input and the addresses of its block, of the
-road's and of the driver's (0 where there is none)."""
+"""Doubles of mjData's `userdata` before the deflection speeds: the mark of a running input and the addresses of its
+block, of the road's and of the driver's (0 where there is none)."""
 
 
 @dataclass(frozen=True)

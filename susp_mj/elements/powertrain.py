@@ -20,13 +20,14 @@ def _rpm(speed: float) -> str:
 class Powertrain(Description):
     """Engine, viscous coupling, gearbox with shifts by engine speed, final drive, open differential on one axle.
 
-    The engine gives ``T = drag + a (full - drag)`` at accelerator a = 0..1, both interpolated over its speed. Through the coupling
-    passes ``coupling (w_engine - i w_wheels)`` with ``i = gear ratio * final_drive`` and w_wheels the mean speed of the driven
-    wheels, of which each gets ``efficiency i / 2`` times the torque (power flowing to the engine is divided by the efficiency).
+    The engine gives ``T = drag + a (full - drag)`` at accelerator a = 0..1, both interpolated over its speed. Through
+    the coupling passes ``coupling (w_engine - i w_wheels)`` with ``i = gear ratio * final_drive`` and w_wheels the mean
+    speed of the driven wheels, of which each gets ``efficiency i / 2`` times the torque (power flowing to the engine is
+    divided by the efficiency).
 
     Shifts: up when the engine runs faster than `shift_up`, down when slower than `shift_down`. So that the box does not
-    hunt, the speed after a shift down, ``shift_down * gear / next gear``, must stay below `shift_up` for every pair of gears
-    (the same condition keeps the speed after a shift up above `shift_down`).
+    hunt, the speed after a shift down, ``shift_down * gear / next gear``, must stay below `shift_up` for every pair of
+    gears (the same condition keeps the speed after a shift up above `shift_down`).
 
     Attributes:
         driven: axle that is driven.
@@ -64,16 +65,21 @@ class Powertrain(Description):
         for i in range(1, len(self.speed)):
             if self.speed[i] <= self.speed[i - 1]:
                 raise wrong(
-                    f"{_rpm(self.speed[i])} follows {_rpm(self.speed[i - 1])}; the torque map must increase strictly in speed", f"speed.{i}"
+                    f"{_rpm(self.speed[i])} follows {_rpm(self.speed[i - 1])}; the torque map must increase "
+                    "strictly in speed",
+                    f"speed.{i}",
                 )
         check_length(self.full_torque, "full_torque", self.speed, "speed")
         check_length(self.drag_torque, "drag_torque", self.speed, "speed")
         for i, (full, drag) in enumerate(zip(self.full_torque, self.drag_torque, strict=True)):
             if full <= drag:
-                raise wrong(f"{full:g} N m is not allowed; it must be above the drag torque of {drag:g} N m", f"full_torque.{i}")
+                raise wrong(
+                    f"{full:g} N m is not allowed; it must be above the drag torque of {drag:g} N m", f"full_torque.{i}"
+                )
         if not self.speed[0] <= self.idle_speed < self.speed[-1]:
             raise wrong(
-                f"{_rpm(self.idle_speed)} is not allowed; the torque map reaches from {_rpm(self.speed[0])} to {_rpm(self.speed[-1])}",
+                f"{_rpm(self.idle_speed)} is not allowed; the torque map reaches from {_rpm(self.speed[0])} to "
+                f"{_rpm(self.speed[-1])}",
                 "idle_speed",
             )
         return self
@@ -84,9 +90,13 @@ class Powertrain(Description):
             raise wrong("[] is not allowed; give one ratio at least", "gears")
         for i in range(1, len(self.gears)):
             if self.gears[i] >= self.gears[i - 1]:
-                raise wrong(f"{self.gears[i]:g} follows {self.gears[i - 1]:g}; the ratios must decrease strictly", f"gears.{i}")
+                raise wrong(
+                    f"{self.gears[i]:g} follows {self.gears[i - 1]:g}; the ratios must decrease strictly", f"gears.{i}"
+                )
         if not self.shift_up <= self.speed[-1]:
-            raise wrong(f"{_rpm(self.shift_up)} is not allowed; the torque map ends at {_rpm(self.speed[-1])}", "shift_up")
+            raise wrong(
+                f"{_rpm(self.shift_up)} is not allowed; the torque map ends at {_rpm(self.speed[-1])}", "shift_up"
+            )
         if not self.idle_speed <= self.shift_down < self.shift_up:
             raise wrong(
                 f"{_rpm(self.shift_down)} is not allowed; it must be at least idle_speed, {_rpm(self.idle_speed)}, "

@@ -112,7 +112,9 @@ class Spring(Element):
         low, high = self.force_at([self.stops.rebound, self.stops.compression])
         if not low < force < high:
             raise ValueError(f"cannot carry {force:.0f} N; between its stops it carries {low:.0f} N to {high:.0f} N")
-        root: Any = brentq(lambda x: float(self.force_at(x)) - force, self.stops.rebound, self.stops.compression, xtol=1e-12)
+        root: Any = brentq(
+            lambda x: float(self.force_at(x)) - force, self.stops.rebound, self.stops.compression, xtol=1e-12
+        )
         return float(root)
 
     def _known_preload(self) -> float:
@@ -175,8 +177,8 @@ class ProgressiveSpring(Spring):
 
     ``x < 0``: straight from F0 to F_min at x_min. ``0 <= x <= x_p``: ``F_cf = F0 exp(w² x / g)``. Above:
     ``F = F_cf(x) + (F_max - F_cf(x_max)) ((x - x_p)/(x_max - x_p))^f``, so that F(x_max) = F_max. The exponential
-    factor f is reconstructed: the formula is illegible in the source. Without F_max the spring keeps its frequency up to
-    the stop.
+    factor f is reconstructed: the formula is illegible in the source. Without F_max the spring keeps its frequency up
+    to the stop.
 
     Attributes:
         frequency: natural frequency [Hz] of the constant-frequency part.
@@ -199,16 +201,21 @@ class ProgressiveSpring(Spring):
     def _monotone(self) -> ProgressiveSpring:
         if self.progressive_from >= self.stops.compression:
             raise wrong(
-                f"{self.progressive_from} m is not allowed; it must lie below the compression stop at {self.stops.compression} m",
+                f"{self.progressive_from} m is not allowed; it must lie below the compression stop at "
+                f"{self.stops.compression} m",
                 "progressive_from",
             )
         if self.preload is not None:
             if self.rebound_force >= self.preload:
-                raise wrong(f"{self.rebound_force} N is not allowed; it must be below the preload of {self.preload:.0f} N", "rebound_force")
+                raise wrong(
+                    f"{self.rebound_force} N is not allowed; it must be below the preload of {self.preload:.0f} N",
+                    "rebound_force",
+                )
             least = self.preload * math.exp((2 * math.pi * self.frequency) ** 2 / GRAVITY * self.stops.compression)
             if self.compression_force is not None and self.compression_force < least:
                 raise wrong(
-                    f"{self.compression_force} N is not allowed; constant frequency alone reaches {least:.0f} N at the stop",
+                    f"{self.compression_force} N is not allowed; constant frequency alone reaches {least:.0f} N at "
+                    "the stop",
                     "compression_force",
                 )
         return self
@@ -223,7 +230,9 @@ class ProgressiveSpring(Spring):
             growth,
             (preload - self.rebound_force) / -stops.rebound,
             self.progressive_from,
-            0.0 if self.compression_force is None else self.compression_force - preload * math.exp(growth * stops.compression),
+            0.0
+            if self.compression_force is None
+            else self.compression_force - preload * math.exp(growth * stops.compression),
             self.exponent,
         )
 
@@ -274,7 +283,13 @@ class TableSpring(Spring):
         end_rate = max((3 * last[0] * width + 2 * last[1]) * width + last[2], 0.0) or slopes[-1]
         straight = [np.array([0.0, 0.0, start_rate, f[0]]), np.array([0.0, 0.0, end_rate, f[-1]])]
         pieces: list[Any] = [straight[0], *coefficients, straight[1]]
-        return (self.stops.rebound, self.stops.compression, float(len(x)), *x.tolist(), *np.concatenate(pieces).tolist())
+        return (
+            self.stops.rebound,
+            self.stops.compression,
+            float(len(x)),
+            *x.tolist(),
+            *np.concatenate(pieces).tolist(),
+        )
 
 
 SPRINGS: dict[str, type[Spring]] = {

@@ -11,17 +11,18 @@ from ..units import Inertia, Length, Quantity
 class Steering(Description):
     """Rack steering of the front wheels, elastic between the rack and each wheel.
 
-    The steering wheel angle, positive to the left, divided by the ratio is the mean angle that the rack gives the wheels; the
-    two differ by `ackermann` of the ideal difference. Each wheel, of inertia J about its steering axis, hangs on the rack by
-    a spring and a damper, and the tyre turns it: ``J d'' + D (d' - d_rack') + C (d - d_rack) = M_z - F_y trail -+ F_x scrub``,
-    minus for the left wheel and plus for the right one: a force forwards toes both in when their axes stand inboard of the patches.
+    The steering wheel angle, positive to the left, divided by the ratio is the mean angle that the rack gives the
+    wheels; the two differ by `ackermann` of the ideal difference. Each wheel, of inertia J about its steering axis,
+    hangs on the rack by a spring and a damper, and the tyre turns it: ``J d'' + D (d' - d_rack') + C (d - d_rack) = M_z
+    - F_y trail -+ F_x scrub``, minus for the left wheel and plus for the right one: a force forwards toes both in when
+    their axes stand inboard of the patches.
 
     Attributes:
         ratio: angle of the steering wheel per mean angle of the front wheels.
         stiffness: C [N m/rad] of one wheel about its steering axis, steering wheel held.
         damping: D [N m s/rad] of one wheel about its steering axis.
-        knuckle_inertia: J [kg m²] of one wheel with its carrier about its steering axis. The wheel alone has 0.55 of its `wheel_inertia`;
-            the carrier is given at least 5 % of J.
+        knuckle_inertia: J [kg m²] of one wheel with its carrier about its steering axis. The wheel alone has 0.55 of
+            its `wheel_inertia`; the carrier is given at least 5 % of J.
         trail: caster trail [m] at the ground, positive when the axis meets the ground ahead of the contact patch; a
             lateral force then turns the wheel towards straight running.
         scrub: scrub radius [m] at the ground, positive when the axis meets the ground inboard of the contact patch.

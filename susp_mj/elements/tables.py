@@ -21,7 +21,9 @@ def check_increasing(values: Sequence[float], key: str, unit: str, what: str) ->
         raise wrong(f"{list(values)} is not allowed; give two {what} at least", key)
     for i in range(1, len(values)):
         if values[i] <= values[i - 1]:
-            raise wrong(f"{values[i]:g} {unit} follows {values[i - 1]:g} {unit}; {what} must increase strictly", f"{key}.{i}")
+            raise wrong(
+                f"{values[i]:g} {unit} follows {values[i - 1]:g} {unit}; {what} must increase strictly", f"{key}.{i}"
+            )
 
 
 def check_length(values: Sequence[object], key: str, arguments: Sequence[float], argument: str) -> None:

@@ -1,4 +1,5 @@
-"""A car that drives freely with nothing but what closed forms have: linear tyres, linear springs, no kinematics but a path."""
+"""A car that drives freely with nothing but what closed forms have: linear tyres, linear springs, no kinematics but a
+path."""
 
 from __future__ import annotations
 
@@ -63,7 +64,9 @@ class PlainCar:
                 f"track = {self.track}",
                 f"unsprung_mass = {mu}",
                 f"wheel_inertia = {self.wheel_inertia}",
-                f"spring = {{ kind = 'linear', rate = {self.wheel_rate[i]}, stops = {{ rebound = -0.2, compression = 0.2, rate = 1e5 }} }}",
+                "spring = "
+                f"{{ kind = 'linear', rate = {self.wheel_rate[i]}, stops = {{ rebound = -0.2, compression = 0.2, "
+                f"rate = 1e5 }} }}",
                 f"damper = {{ kind = 'zoned', rates = [{self.damping[i]}] }}",
                 f"kinematics = {{ travel = [-0.2, 0, 0.2], lateral = [{-0.2 * slope}, 0, {0.2 * slope}] }}",
                 "compliance = {}",

@@ -1,7 +1,8 @@
 """The quarter car in plain Python and scipy: a second set of equations, tight tolerances, no code of the product.
 
-Deflection x = wheel - body (massless wheel: road - body), positive in compression. The rod deflection y of the damper is
-a state: the mount carries ``k1 (x - y)``, and the rod moves only as fast as the damper's inverse characteristic tells.
+Deflection x = wheel - body (massless wheel: road - body), positive in compression. The rod deflection y of the damper
+is a state: the mount carries ``k1 (x - y)``, and the rod moves only as fast as the damper's inverse characteristic
+tells.
 """
 
 from __future__ import annotations
@@ -30,7 +31,13 @@ def constant_frequency_spring(preload: float, frequency: float) -> Curve:
 
 
 def progressive_spring(
-    preload: float, frequency: float, *, lower: tuple[float, float], upper: tuple[float, float], onset: float, exponent: float
+    preload: float,
+    frequency: float,
+    *,
+    lower: tuple[float, float],
+    upper: tuple[float, float],
+    onset: float,
+    exponent: float,
 ) -> Curve:
     """Straight to `lower` (x, F) in rebound, constant frequency to `onset`, then bent up to pass through `upper`."""
     base = constant_frequency_spring(preload, frequency)
@@ -46,7 +53,9 @@ def progressive_spring(
     return force
 
 
-def zoned_damper(rates: list[float], limits: list[float], compression: float = 1.0, rebound: float = 1.0) -> tuple[Curve, Curve]:
+def zoned_damper(
+    rates: list[float], limits: list[float], compression: float = 1.0, rebound: float = 1.0
+) -> tuple[Curve, Curve]:
     """Characteristic F(v) and its inverse v(F)."""
     share = {1: 2 * compression / (compression + rebound), -1: 2 * rebound / (compression + rebound)}
     edges = [0.0, *limits, math.inf]
@@ -150,7 +159,11 @@ def bump_road(height: float, length: float, speed: float, start: float) -> Road:
         return height / 2 * (1 - math.cos(2 * math.pi * (t - start) / period)) if start < t < start + period else 0.0
 
     def dz(t: float) -> float:
-        return math.pi * height / period * math.sin(2 * math.pi * (t - start) / period) if start < t < start + period else 0.0
+        return (
+            math.pi * height / period * math.sin(2 * math.pi * (t - start) / period)
+            if start < t < start + period
+            else 0.0
+        )
 
     return Road(z, dz, (start, start + period))
 
@@ -178,7 +191,9 @@ class Motion:
     state: np.ndarray
 
 
-def solve(car: QuarterCar, road: Road, duration: float, *, spacing: float = 1e-3, method: str = "LSODA", rtol: float = 1e-9) -> Motion:
+def solve(
+    car: QuarterCar, road: Road, duration: float, *, spacing: float = 1e-3, method: str = "LSODA", rtol: float = 1e-9
+) -> Motion:
     """Integrate from rest, restarting at every kink of the road."""
     time = np.arange(round(duration / spacing) + 1) * spacing
     states = np.empty((len(time), 5))
@@ -204,5 +219,10 @@ def solve(car: QuarterCar, road: Road, duration: float, *, spacing: float = 1e-3
     heights = np.array([road.height(t) for t in time])
     wheel = heights if car.tyre is None else states[:, 2]
     return Motion(
-        time, states[:, 0], np.array([rates[1] for rates, _ in found]), wheel - states[:, 0], np.array([load for _, load in found]), states
+        time,
+        states[:, 0],
+        np.array([rates[1] for rates, _ in found]),
+        wheel - states[:, 0],
+        np.array([load for _, load in found]),
+        states,
     )

@@ -1,10 +1,13 @@
-"""Cars of one axle, one side or four wheels in plain Python and scipy: a second set of equations, no code of the product.
+"""Cars of one axle, one side or four wheels in plain Python and scipy: a second set of equations, no code of the
+product.
 
-Small angles, written down from the balance of forces and moments. Body: height z of its centre of gravity, pitch (nose down) and
-roll (left side up), each free or locked; a point at (x, y) from the centre of gravity has the height ``z + y roll - x pitch``.
-Wheels: massless on the road, or with mass on tyre springs; guided each for itself, or in pairs by a beam that carries the springs at
-the spring base and the bar as a moment ``c t²/2`` per difference of roll angles. A lateral acceleration acts on the body at its
-centre of gravity; the links pass each axle's share to the wheels at the height of the roll centre.
+Small angles, written down from the balance of forces and moments. Body: height z of its centre of gravity, pitch (nose
+down) and roll (left side up), each free or locked; a point at (x, y) from the centre of gravity has the height ``z + y
+roll - x pitch``.
+Wheels: massless on the road, or with mass on tyre springs; guided each for itself, or in pairs by a beam that carries
+the springs at the spring base and the bar as a moment ``c t²/2`` per difference of roll angles. A lateral acceleration
+acts on the body at its centre of gravity; the links pass each axle's share to the wheels at the height of the roll
+centre.
 """
 
 from __future__ import annotations
@@ -54,7 +57,8 @@ class AxleData:
 
 @dataclass(frozen=True)
 class CarData:
-    """A car with its load cases: mass, centre of gravity from the front wheel centres, moments of inertia about x and y."""
+    """A car with its load cases: mass, centre of gravity from the front wheel centres, moments of inertia about x and
+    y."""
 
     wheelbase: float
     wheel_radius: float
@@ -191,7 +195,9 @@ class Car:
     def _arms(self) -> list[tuple[float, float]]:
         """Places of the springs from the centre of gravity."""
         sides = [0.0 if wheel.y == 0 else math.copysign(wheel.base / 2, wheel.y) for wheel in self.wheels]
-        return [(wheel.x - self.centre[0], side - self.centre[1]) for wheel, side in zip(self.wheels, sides, strict=True)]
+        return [
+            (wheel.x - self.centre[0], side - self.centre[1]) for wheel, side in zip(self.wheels, sides, strict=True)
+        ]
 
     def _twist_of_beams(self, wheel: list[float], roll: float) -> list[float]:
         """Moment of each beam's bar on the body, at the left wheel's place."""
@@ -210,9 +216,12 @@ class Car:
         return share
 
     def _lift_of_links(self, lateral: float) -> list[float]:
-        """The links pass an axle's lateral force to the wheels at the height of the roll centre: a couple over the track."""
+        """The links pass an axle's lateral force to the wheels at the height of the roll centre: a couple over the
+        track."""
         return [
-            0.0 if wheel.y == 0 else math.copysign(1.0, wheel.y) * wheel.carried * lateral * wheel.roll_centre / wheel.track
+            0.0
+            if wheel.y == 0
+            else math.copysign(1.0, wheel.y) * wheel.carried * lateral * wheel.roll_centre / wheel.track
             for wheel in self.wheels
         ]
 
@@ -229,7 +238,9 @@ class Car:
             load[left], load[right] = middle + half, middle - half
         return load, force
 
-    def _wheel_accelerations(self, load: list[float], force: list[float], twist: list[float], lift: list[float]) -> list[float]:
+    def _wheel_accelerations(
+        self, load: list[float], force: list[float], twist: list[float], lift: list[float]
+    ) -> list[float]:
         """Of wheels with mass: each for itself, or heave and roll of the beam."""
         if not self.beam:
             return [(load[i] - force[i] + lift[i]) / wheel.leg.unsprung - G for i, wheel in enumerate(self.wheels)]
@@ -237,12 +248,19 @@ class Car:
         for left, right in self._pairs():
             mass, track, base = self.wheels[left].leg.unsprung, self.wheels[left].track, self.wheels[left].base
             up = (load[left] + load[right] - force[left] - force[right]) / (2 * mass) - G
-            moment = (load[left] - load[right]) * track / 2 - (force[left] - force[right]) * base / 2 - twist[left] + lift[left] * track
+            moment = (
+                (load[left] - load[right]) * track / 2
+                - (force[left] - force[right]) * base / 2
+                - twist[left]
+                + lift[left] * track
+            )
             turning = moment / (mass * track**2 / 2)
             found[left], found[right] = up + turning * track / 2, up - turning * track / 2
         return found
 
-    def rates(self, state: np.ndarray, excitation: Excitation, t: float) -> tuple[list[float], list[float], list[float]]:
+    def rates(
+        self, state: np.ndarray, excitation: Excitation, t: float
+    ) -> tuple[list[float], list[float], list[float]]:
         """Derivative of the state, wheel loads, deflections of the springs."""
         n = len(self.wheels)
         s = state.tolist()
@@ -270,7 +288,9 @@ class Car:
         above_axis = sum(self.wheels[i].carried * (self.height - self.wheels[i].roll_centre) for i, _ in self._pairs())
         up = sum(force) / self.mass - G
         nose_down = -sum(x * f for (x, _), f in zip(arms, force, strict=True)) - self.mass * self.height * longitudinal
-        left_up = sum(y * f for (_, y), f in zip(arms, force, strict=True)) + sum(twist) + above_axis * (lateral + G * roll)
+        left_up = (
+            sum(y * f for (_, y), f in zip(arms, force, strict=True)) + sum(twist) + above_axis * (lateral + G * roll)
+        )
         body = {"z": up, "pitch": nose_down / self.inertia[1], "roll": left_up / self.inertia[0]}
         free = [body[name] if name in self.freedoms else 0.0 for name in ("z", "pitch", "roll")]
         return [dz, dpitch, droll, *free, *moving, *(leg[1] for leg in legs)], load, travel
@@ -292,7 +312,11 @@ class Car:
             state[6 + 2 * n :] = self.rates(state, excitation, t)[2]
             return state
 
-        found = root(lambda values: np.array(self.rates(state_at(values), excitation, t)[0])[rates_of], np.zeros(len(unknown)), tol=1e-14)
+        found = root(
+            lambda values: np.array(self.rates(state_at(values), excitation, t)[0])[rates_of],
+            np.zeros(len(unknown)),
+            tol=1e-14,
+        )
         state = state_at(found.x)
         left = np.array(self.rates(state, excitation, t)[0])[rates_of]
         assert np.abs(left).max() < 1e-8, left
@@ -300,7 +324,13 @@ class Car:
 
 
 def solve(
-    car: Car, excitation: Excitation, duration: float, *, spacing: float = 1e-3, method: str = "LSODA", rtol: float = 1e-8
+    car: Car,
+    excitation: Excitation,
+    duration: float,
+    *,
+    spacing: float = 1e-3,
+    method: str = "LSODA",
+    rtol: float = 1e-8,
 ) -> History:
     """Integrate from rest, restarting at every kink of the excitation."""
     time = np.arange(round(duration / spacing) + 1) * spacing

@@ -1,7 +1,9 @@
-"""The car that drives freely a second time: equations of motion written down by hand, plain numpy and scipy, no code of the product's car.
+"""The car that drives freely a second time: equations of motion written down by hand, plain numpy and scipy, no code of
+the product's car.
 
-Newton and Euler in body axes (x forward, y left, z up, origin in the body's centre of gravity). With A the acceleration of the
-centre of gravity, w the body's angular velocity and ``r = (X, Y, Z + z)`` a wheel of mass m that slides along the body's z axis,
+Newton and Euler in body axes (x forward, y left, z up, origin in the body's centre of gravity). With A the acceleration
+of the centre of gravity, w the body's angular velocity and ``r = (X, Y, Z + z)`` a wheel of mass m that slides along
+the body's z axis,
 
     a = A + w' x r + w x (w x r) + 2 w x z' e_z + z'' e_z
     force    M A + sum m a                                = F + (M + sum m) g
@@ -10,16 +12,18 @@ centre of gravity, w the body's angular velocity and ``r = (X, Y, Z + z)`` a whe
     steering e_z . dH/dt                                  = Q_d
     spin     e . dH/dt                                    = Q_s
 
-where H is the angular momentum of knuckle and wheel about the wheel's centre, ``e = (-sin d, cos d, 0)`` the spin axis, s the spin,
-``W = w + d' e_z`` the knuckle's angular velocity and ``dH/dt = (J_k + J_t) W' + (J_s - J_t) ((W' . e) e + (W . e) W x e)
-+ J_s (s' e + s W x e)``, the gyroscopic moment being its last part. Q are the partial velocities of the contact patch and the partial
-angular velocities of the wheel times the tyre's force and moment (Kane). The spin is that against the body, which is what a drive
-shaft sees; the contact patch lies below the wheel's centre and moves along its path. A brake rubs on the carrier, which turns about the
-lateral axis as it travels, by ``theta(z)``: it adds ``T theta'`` to Q_z.
+where H is the angular momentum of knuckle and wheel about the wheel's centre, ``e = (-sin d, cos d, 0)`` the spin axis,
+s the spin, ``W = w + d' e_z`` the knuckle's angular velocity and ``dH/dt = (J_k + J_t) W' + (J_s - J_t) ((W' . e) e +
+(W . e) W x e) + J_s (s' e + s W x e)``, the gyroscopic moment being its last part. Q are the partial velocities of the
+contact patch and the partial angular velocities of the wheel times the tyre's force and moment (Kane). The spin is that
+against the body, which is what a drive shaft sees; the contact patch lies below the wheel's centre and moves along its
+path. A brake rubs on the carrier, which turns about the lateral axis as it travels, by ``theta(z)``: it adds ``T
+theta'`` to Q_z.
 
-The orientation is kept as yaw, pitch, roll (z, y, x); tables are splines of the given points, in two dimensions where they have two.
-Taken from the product are descriptions and the laws of single elements: springs, dampers, stops, friction, the tyre's contact law.
-The road is flat, the car rolls forwards faster than walking pace; gears are those that a run has recorded.
+The orientation is kept as yaw, pitch, roll (z, y, x); tables are splines of the given points, in two dimensions where
+they have two. Taken from the product are descriptions and the laws of single elements: springs, dampers, stops,
+friction, the tyre's contact law. The road is flat, the car rolls forwards faster than walking pace; gears are those
+that a run has recorded.
 """
 
 from __future__ import annotations
@@ -70,7 +74,8 @@ def rotation(yaw: float, pitch: float, roll: float) -> np.ndarray:
 class AxleTables:
     """Kinematics and compliance of both wheels of an axle, as for the left one.
 
-    The carrier's turn about the lateral axis is what the wheel centre moves forwards more than the contact patch, over its height.
+    The carrier's turn about the lateral axis is what the wheel centre moves forwards more than the contact patch, over
+    its height.
     """
 
     def __init__(self, axle: Any, height: float) -> None:
@@ -98,10 +103,13 @@ class AxleTables:
         ):
             if force:
                 n = len(force)
-                self.elastic.append((which, PchipInterpolator(force, np.column_stack([toe or nothing[:n], camber or nothing[:n]]))))
+                self.elastic.append(
+                    (which, PchipInterpolator(force, np.column_stack([toe or nothing[:n], camber or nothing[:n]])))
+                )
 
     def at(self, z: np.ndarray, steer: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Outwards, forwards, swing, toe, camber of both wheels; their slopes over travel; slopes of toe and camber over steering.
+        """Outwards, forwards, swing, toe, camber of both wheels; their slopes over travel; slopes of toe and camber
+        over steering.
 
         Args:
             z, steer: (2,) travel, and steering with the sign of a left wheel.
@@ -119,7 +127,8 @@ class AxleTables:
 
 
 class Corner:
-    """Elements of one corner as plain functions: force between wheel and body, speed of the damper rod, the tyre's law."""
+    """Elements of one corner as plain functions: force between wheel and body, speed of the damper rod, the tyre's
+    law."""
 
     def __init__(self, axle: Any, side: str) -> None:
         parts = [axle.spring, axle.spring.stops, *([axle.friction] if axle.friction is not None else [])]
@@ -133,7 +142,9 @@ class Corner:
         force = sum(law(z, speed, 0.0, p) for law, p in self.parts) + self.damper(z, speed, rod, self.damping)
         return force, speed if self.rod is None else self.rod(z, speed, rod, self.damping)
 
-    def grip(self, kappa: float, tangent: float, camber: float, load: float, rolling: float, lateral: float) -> list[float]:
+    def grip(
+        self, kappa: float, tangent: float, camber: float, load: float, rolling: float, lateral: float
+    ) -> list[float]:
         """F_x, F_y, M_x, M_y, M_z, relaxation lengths, rolling radius."""
         out = [0.0] * 8
         self.contact(kappa, tangent, camber, load, rolling, lateral, 1.0, self.numbers, out)
@@ -141,7 +152,8 @@ class Corner:
 
 
 _SIZES = {
-    "place": 3, "angles": 3, "velocity": 3, "turning": 3, "z": 4, "z_rate": 4, "steer": 2, "steer_rate": 2, "spin": 4, "kappa": 4,
+    "place": 3, "angles": 3, "velocity": 3, "turning": 3, "z": 4, "z_rate": 4, "steer": 2, "steer_rate": 2, "spin": 4,
+    "kappa": 4,
     "tangent": 4, "bristle": 4, "elastic": 12, "rod": 4, "engine": 1, "integral": 1,
 }  # fmt: skip
 _ENDS = np.cumsum([0, *_SIZES.values()])
@@ -168,7 +180,9 @@ class ReferenceCar:
         x = np.array([0.0, 0.0, -vehicle.wheelbase, -vehicle.wheelbase])
         y = SIDE * np.array([axle.track for axle in axles]) / 2
         self.hubs = np.array([x - case.cg[0], y - case.cg[1], np.full(4, -case.cg[2])])
-        carried = np.array([vehicle.corner_mass(name, "ko") for name in ("front", "front", "rear", "rear")]) + self.unsprung
+        carried = (
+            np.array([vehicle.corner_mass(name, "ko") for name in ("front", "front", "rear", "rear")]) + self.unsprung
+        )
         heights = self.radius - carried * G / self.rate
         self.design = heights[0] - case.cg[0] / vehicle.wheelbase * (heights[2] - heights[0]) + case.cg[2]
         self.place = np.array([case.cg[0], case.cg[1], self.design])
@@ -183,7 +197,9 @@ class ReferenceCar:
         brakes, train = vehicle.brakes, vehicle.powertrain
         self.brake = brakes.torque / 2 * np.array([brakes.front_share] * 2 + [1 - brakes.front_share] * 2)
         self.driven = np.array([float((train.driven == "front") == (each == 0.0)) for each in x])
-        self.full, self.drag = (PchipInterpolator(train.speed, curve) for curve in (train.full_torque, train.drag_torque))
+        self.full, self.drag = (
+            PchipInterpolator(train.speed, curve) for curve in (train.full_torque, train.drag_torque)
+        )
         self.converter = max(train.full_torque) / STALL_SPEED**2
         self.idle_torque = float(np.interp(train.idle_speed, train.speed, train.full_torque))
         self.inputs: dict[str, Callable[[float], tuple[float, float]]] = {}
@@ -197,7 +213,9 @@ class ReferenceCar:
 
     # ---- power train, brakes, air
 
-    def drive(self, t: float, spin: np.ndarray, engine: float, integral: float, speed: float) -> tuple[float, float, float]:
+    def drive(
+        self, t: float, spin: np.ndarray, engine: float, integral: float, speed: float
+    ) -> tuple[float, float, float]:
         """Torque on each driven wheel, rates of engine and controller."""
         train = self.vehicle.powertrain
         ratio, since = self.gear(t)
@@ -207,10 +225,16 @@ class ReferenceCar:
         target, weight = self.input("speed_target", t)[0], self.input("speed_control", t)[0]
         error = target - speed
         radius = float(self.radius[self.driven > 0][-1])
-        wanted = ((CONTROL_GAIN * self.whole * error + integral) * radius / ratio / train.efficiency - drag) / (full - drag)
+        wanted = ((CONTROL_GAIN * self.whole * error + integral) * radius / ratio / train.efficiency - drag) / (
+            full - drag
+        )
         share = wanted if self.free_pedal else min(max(wanted, 0.0), 1.0)
         stuck = (wanted > WIND_UP and error > 0) or (wanted < 1 - WIND_UP and error < 0)
-        torque = drag + weight * share * (full - drag) + min(max(IDLE_GAIN * (train.idle_speed - engine), 0.0), self.idle_torque)
+        torque = (
+            drag
+            + weight * share * (full - drag)
+            + min(max(IDLE_GAIN * (train.idle_speed - engine), 0.0), self.idle_torque)
+        )
         closed = min(max((since / max(train.shift_time, 1e-3) - SHIFT_OPEN) / (1 - SHIFT_OPEN), 0.0), 1.0)
         lock = min(max(2 * speed_in / train.idle_speed - 1.6, 0.0), 1.0)
         passed = closed * (self.converter * engine + lock * train.coupling) * (engine - speed_in)
@@ -268,7 +292,9 @@ class ReferenceCar:
         tilt = np.arcsin((axis * normal).sum(0))
         rolling, lateral = (moving * forward).sum(0), (moving * left).sum(0)
         pressed = self.radius - loaded
-        load = np.where(pressed > 0, np.maximum(self.rate * pressed - self.damping * (moving * normal).sum(0), 0.0), 0.0)
+        load = np.where(
+            pressed > 0, np.maximum(self.rate * pressed - self.damping * (moving * normal).sum(0), 0.0), 0.0
+        )
 
         # tyres, slips and brakes
         columns = zip(self.corners, s["kappa"], s["tangent"], tilt, load, rolling, lateral, strict=True)
@@ -276,23 +302,33 @@ class ReferenceCar:
         fx, fy, mx, my, mz, sigma_x, sigma_y, effective = tyre
         size = np.abs(rolling)
         least = np.maximum(LEAST_RELAXATION, size * LEAST_TIME)
-        along, across = (sigma / (1 + (s[slip] / SLIDING_SLIP) ** 2) for sigma, slip in ((sigma_x, "kappa"), (sigma_y, "tangent")))
+        along, across = (
+            sigma / (1 + (s[slip] / SLIDING_SLIP) ** 2) for sigma, slip in ((sigma_x, "kappa"), (sigma_y, "tangent"))
+        )
         kappa_rate = (spin * effective - rolling - size * s["kappa"]) / np.maximum(along, least)
         tan_rate = (lateral - size * s["tangent"]) / np.maximum(across, least)
         rubbing = spin - slope[2] * z_rate
         bristle_rate = (rubbing - np.abs(rubbing) * s["bristle"]) / np.maximum(BRISTLE, np.abs(rubbing) * BRISTLE_TIME)
-        braking = self.brake * self.input("brake_pedal", t)[0] * np.clip(s["bristle"] + BRISTLE_DAMPING * bristle_rate, -1, 1)
+        braking = (
+            self.brake * self.input("brake_pedal", t)[0] * np.clip(s["bristle"] + BRISTLE_DAMPING * bristle_rate, -1, 1)
+        )
         velocity = turn @ v
-        drive, engine_rate, integral_rate = self.drive(t, spin, s["engine"][0], s["integral"][0], math.hypot(velocity[0], velocity[1]))
+        drive, engine_rate, integral_rate = self.drive(
+            t, spin, s["engine"][0], s["integral"][0], math.hypot(velocity[0], velocity[1])
+        )
         elastic_rate = (np.array([fx, fy, mz]) - felt) / BUSHING_TIME
 
-        # forces of the road: at the contact patch, and the couple that makes the rolling radius the lever of F_x about the spin axis
+        # forces of the road: at the contact patch, and the couple that makes the rolling radius the lever of F_x about
+        # the spin axis
         push = fx * forward + fy * left + load * normal
         twist = mx * forward + (my - fx * (effective - loaded)) * axis + mz * normal
         about_x = np.array([np.cos(heading), np.sin(heading), np.zeros(4)])
         turning_z = -SIDE * (slope[4] * about_x + slope[3] * EZ)  # partial angular velocities of the wheel
         turning_d = (1 - over_steer[0]) * EZ - over_steer[1] * about_x
-        between = [corner.suspension(*map(float, each)) for corner, *each in zip(self.corners, z, z_rate, s["rod"], strict=True)]
+        between = [
+            corner.suspension(*map(float, each))
+            for corner, *each in zip(self.corners, z, z_rate, s["rod"], strict=True)
+        ]
         internal, rod_rate = np.array(between).T
         bar = np.array([self.bars[0] * (z[0] - z[1]) / 2, self.bars[1] * (z[2] - z[3]) / 2])
         internal = internal + np.array([bar[0], -bar[0], bar[1], -bar[1]])
@@ -308,7 +344,9 @@ class ReferenceCar:
         force = push.sum(1) + air_force
         moment = (cross(contact, push) + twist).sum(1) + air_moment
 
-        solved = self._accelerations(w, z, z_rate, steer, steer_rate, spin, -G * up, force, moment, q_travel, q_steer, q_spin)
+        solved = self._accelerations(
+            w, z, z_rate, steer, steer_rate, spin, -G * up, force, moment, q_travel, q_steer, q_spin
+        )
         acceleration, w_rate = solved[:3], solved[3:6]
         _, pitch, roll = s["angles"]
         yaw_rate = (w[1] * math.sin(roll) + w[2] * math.cos(roll)) / math.cos(pitch)
@@ -317,26 +355,38 @@ class ReferenceCar:
             level = turn @ acceleration
             yaw = s["angles"][0]
             record |= {
-                "yaw_rate": yaw_rate, "roll_angle": roll, "pitch_angle": pitch, "body_displacement": s["place"][2] - self.design,
+                "yaw_rate": yaw_rate, "roll_angle": roll, "pitch_angle": pitch,
+                "body_displacement": s["place"][2] - self.design,
                 "lateral_acceleration": math.cos(yaw) * level[1] - math.sin(yaw) * level[0],
                 "longitudinal_acceleration": math.cos(yaw) * level[0] + math.sin(yaw) * level[1],
                 "speed": math.hypot(velocity[0], velocity[1]), "engine_speed": s["engine"][0],
                 "side_slip_angle": math.atan2(velocity[1], velocity[0]) - yaw,
             }  # fmt: skip
             wheels = {
-                "wheel_load": load, "suspension_deflection": z, "slip_angle": np.arctan(s["tangent"]), "slip_ratio": s["kappa"],
-                "camber_angle": tilt, "steer_angle": heading, "longitudinal_force": fx, "lateral_force": fy, "aligning_moment": mz,
-                "drive_torque": drive * self.driven, "brake_torque": braking, "wheel_speed": spin, "inclination_angle": camber,
+                "wheel_load": load, "suspension_deflection": z, "slip_angle": np.arctan(s["tangent"]),
+                "slip_ratio": s["kappa"],
+                "camber_angle": tilt, "steer_angle": heading, "longitudinal_force": fx, "lateral_force": fy,
+                "aligning_moment": mz,
+                "drive_torque": drive * self.driven, "brake_torque": braking, "wheel_speed": spin,
+                "inclination_angle": camber,
             }  # fmt: skip
-            record |= {f"{name}_{quantity}": each for quantity, values in wheels.items() for name, each in zip(WHEELS, values, strict=True)}
+            record |= {
+                f"{name}_{quantity}": each
+                for quantity, values in wheels.items()
+                for name, each in zip(WHEELS, values, strict=True)
+            }
         return np.concatenate(
             [
-                velocity, angle_rates, acceleration - cross(w, v), w_rate, z_rate, solved[6:10], steer_rate[:2], solved[10:12],
-                solved[12:], kappa_rate, tan_rate, bristle_rate, elastic_rate.ravel(), rod_rate, [engine_rate], [integral_rate],
+                velocity, angle_rates, acceleration - cross(w, v), w_rate, z_rate, solved[6:10], steer_rate[:2],
+                solved[10:12],
+                solved[12:], kappa_rate, tan_rate, bristle_rate, elastic_rate.ravel(), rod_rate, [engine_rate],
+                [integral_rate],
             ]
         )  # fmt: skip
 
-    def _accelerations(self, w, z, z_rate, steer, steer_rate, spin, gravity, force, moment, q_travel, q_steer, q_spin) -> np.ndarray:
+    def _accelerations(
+        self, w, z, z_rate, steer, steer_rate, spin, gravity, force, moment, q_travel, q_steer, q_spin
+    ) -> np.ndarray:
         """A and w' in body axes, z'', d'', s' from the equations above."""
         m, js, jt, jk = self.unsprung, self.spin_inertia, self.across, self.upright
         r = self.hubs + z * EZ
@@ -348,13 +398,23 @@ class ReferenceCar:
         knuckle = column + steer_rate * EZ
         turned = cross(column, steer_rate * EZ)
         swept = cross(knuckle, axis)
-        rest = (jk + jt) * turned + (js - jt) * ((turned * axis).sum(0) * axis + (knuckle * axis).sum(0) * swept) + js * spin * swept
+        rest = (
+            (jk + jt) * turned
+            + (js - jt) * ((turned * axis).sum(0) * axis + (knuckle * axis).sum(0) * swept)
+            + js * spin * swept
+        )
 
         left[:3, :3] = self.whole * np.eye(3)
         arms = skew((m * r).sum(1))
         left[:3, 3:6], left[3:6, :3] = -arms, arms
         outer = (m * r) @ r.T
-        left[3:6, 3:6] = self.inertia + np.trace(outer) * np.eye(3) - outer + (jk + jt).sum() * np.eye(3) + ((js - jt) * axis) @ axis.T
+        left[3:6, 3:6] = (
+            self.inertia
+            + np.trace(outer) * np.eye(3)
+            - outer
+            + (jk + jt).sum() * np.eye(3)
+            + ((js - jt) * axis) @ axis.T
+        )
         travel, hinge, turning = slice(6, 10), slice(10, 12), slice(12, 16)
         left[2, travel] = left[travel, 2] = m
         left[3:6, travel] = cross(r, m * EZ)
@@ -384,7 +444,10 @@ class ReferenceCar:
         rolling = speed / self.radius
         ratio, _ = self.gear(0.0)
         start = np.zeros(37)
-        start[10:14], start[34] = rolling / 10, rolling @ self.driven / 2 * ratio * self.vehicle.powertrain.final_drive / 10
+        start[10:14], start[34] = (
+            rolling / 10,
+            rolling @ self.driven / 2 * ratio * self.vehicle.powertrain.final_drive / 10,
+        )
 
         def entered(values: np.ndarray) -> np.ndarray:
             values = values * scale
@@ -400,7 +463,10 @@ class ReferenceCar:
                 at += _SIZES[name]
             return state
 
-        rows = [AT[name] for name in ("velocity", "turning", "z_rate", "steer_rate", "spin", "kappa", "tangent", "elastic", "engine")]
+        rows = [
+            AT[name]
+            for name in ("velocity", "turning", "z_rate", "steer_rate", "spin", "kappa", "tangent", "elastic", "engine")
+        ]
         sizes = np.concatenate([np.ones(24), np.full(12, 1e3), [10.0]])
 
         def left_over(values: np.ndarray) -> np.ndarray:
@@ -413,8 +479,11 @@ class ReferenceCar:
         self.inputs, self.free_pedal = inputs, False
         return state
 
-    def drive_along(self, speed: float, duration: float, inputs: Mapping[str, Any], *, step: float = 1e-3) -> dict[str, np.ndarray]:
-        """Channels at every millisecond, by Kutta's rule of third order; inputs as (time, value) pairs with straight lines between."""
+    def drive_along(
+        self, speed: float, duration: float, inputs: Mapping[str, Any], *, step: float = 1e-3
+    ) -> dict[str, np.ndarray]:
+        """Channels at every millisecond, by Kutta's rule of third order; inputs as (time, value) pairs with straight
+        lines between."""
         self.inputs = {name: _lines(points) for name, points in inputs.items()}
         state = self.trimmed(speed)
         every, records, steps = round(1e-3 / step), [], round(duration / step)
@@ -433,10 +502,15 @@ class ReferenceCar:
 def _lines(points: Any) -> Callable[[float], tuple[float, float]]:
     moments, values = (np.array(each, float) for each in zip(*points, strict=True))
     slopes = np.concatenate([[0.0], np.diff(values) / np.diff(moments), [0.0]])
-    return lambda t: (float(np.interp(t, moments, values)), float(slopes[np.searchsorted(moments, t + 1e-12, side="right")]))
+    return lambda t: (
+        float(np.interp(t, moments, values)),
+        float(slopes[np.searchsorted(moments, t + 1e-12, side="right")]),
+    )
 
 
-def recorded_gears(time: np.ndarray, gear: np.ndarray, ratios: tuple[float, ...]) -> Callable[[float], tuple[float, float]]:
+def recorded_gears(
+    time: np.ndarray, gear: np.ndarray, ratios: tuple[float, ...]
+) -> Callable[[float], tuple[float, float]]:
     """Ratio and time since the last shift, from a run."""
     at = np.flatnonzero(np.diff(gear)) + 1
     moments, places = np.array([-1e3, *time[at]]), np.array([gear[0], *gear[at]]).astype(int)

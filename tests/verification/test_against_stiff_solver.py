@@ -81,7 +81,9 @@ def test_figures_of_chapter_3(case):
 def test_only_the_linear_car_loses_contact():
     off = product("linear")["wheel_load"] == 0.0
     assert product("linear").time[np.argmax(off)] == pytest.approx(0.3, abs=0.02)
-    np.testing.assert_array_equal(np.flatnonzero(off)[[0, -1]], np.flatnonzero(reference("linear").load == 0.0)[[0, -1]])
+    np.testing.assert_array_equal(
+        np.flatnonzero(off)[[0, -1]], np.flatnonzero(reference("linear").load == 0.0)[[0, -1]]
+    )
     assert product("nonlinear")["wheel_load"].min() > 0
     assert product("soft_linear")["wheel_load"].min() > 0
 
@@ -115,16 +117,39 @@ VARIANTS = {
         ),
     ),
     "three zones": (
-        {"rear.damper": {"kind": "zoned", "rates": [1500, 2500, 700], "limits": [0.1, 0.3], "ratio": "2:1", "mount": {"rate": 3e5}}},
-        QuarterCar(483.5, linear_spring(4743, 1.2), zoned_damper([1500, 2500, 700], [0.1, 0.3], 2, 1), mount=3e5, rod_friction=0.0),
+        {
+            "rear.damper": {
+                "kind": "zoned",
+                "rates": [1500, 2500, 700],
+                "limits": [0.1, 0.3],
+                "ratio": "2:1",
+                "mount": {"rate": 3e5},
+            }
+        },
+        QuarterCar(
+            483.5,
+            linear_spring(4743, 1.2),
+            zoned_damper([1500, 2500, 700], [0.1, 0.3], 2, 1),
+            mount=3e5,
+            rod_friction=0.0,
+        ),
     ),
     "damper without mount": (
         {"rear.damper": {"kind": "zoned", "rates": [1500, 600], "limits": [0.2], "ratio": "1:2", "friction": 40}},
-        QuarterCar(483.5, linear_spring(4743, 1.2), zoned_damper([1500, 600], [0.2], 1, 2), mount=None, rod_friction=40.0),
+        QuarterCar(
+            483.5, linear_spring(4743, 1.2), zoned_damper([1500, 600], [0.2], 1, 2), mount=None, rod_friction=40.0
+        ),
     ),
     "no friction": (
         {"rear.friction": None, "rear.damper": {"kind": "zoned", "rates": [1500]}},
-        QuarterCar(483.5, linear_spring(4743, 1.2), zoned_damper([1500], []), mount=None, rod_friction=0.0, linkage_friction=0.0),
+        QuarterCar(
+            483.5,
+            linear_spring(4743, 1.2),
+            zoned_damper([1500], []),
+            mount=None,
+            rod_friction=0.0,
+            linkage_friction=0.0,
+        ),
     ),
 }
 
@@ -133,7 +158,9 @@ VARIANTS = {
 @pytest.mark.parametrize("height", [0.08, -0.06])
 def test_other_characteristics(name, height):
     overrides, car = VARIANTS[name]
-    run = simulate(build(load_vehicle("chapter3", "linear", overrides), "quarter_2dof"), Bump(height=height, duration=1.5))
+    run = simulate(
+        build(load_vehicle("chapter3", "linear", overrides), "quarter_2dof"), Bump(height=height, duration=1.5)
+    )
     expected = solve(car, bump_road(height, 2.0, 50 / 3.6, 0.2), 1.5)
     assert np.abs(run["body_displacement"] - expected.body).max() < 0.05e-3
     assert np.abs(run["suspension_deflection"] - expected.travel).max() < 0.1e-3

@@ -73,7 +73,9 @@ def test_natural_frequencies_in_time():
     """Ringing after a step, without damping: the two peaks of the spectrum."""
     run = simulate(linear_car(damping=1e-6), RoadStep(height=0.005, duration=80.0, start=0.0))
     values = (
-        run["body_displacement"] - run["body_displacement"].mean() + 30 * (run["wheel_displacement"] - run["wheel_displacement"].mean())
+        run["body_displacement"]
+        - run["body_displacement"].mean()
+        + 30 * (run["wheel_displacement"] - run["wheel_displacement"].mean())
     )
     spectrum = np.abs(np.fft.rfft(values * np.hanning(len(values)), 8 * len(values)))
     frequency = np.fft.rfftfreq(8 * len(values), run.step)
@@ -103,10 +105,23 @@ def test_variances_on_a_white_noise_road():
 
 
 SUSPENSIONS = {
-    "soft, weak": {"rear.spring": {"kind": "linear", "rate": 15e3, "stops": STOPS}, "rear.damper": {"kind": "zoned", "rates": [900]}},
-    "stiff, strong": {"rear.spring": {"kind": "linear", "rate": 60e3, "stops": STOPS}, "rear.damper": {"kind": "zoned", "rates": [4000]}},
+    "soft, weak": {
+        "rear.spring": {"kind": "linear", "rate": 15e3, "stops": STOPS},
+        "rear.damper": {"kind": "zoned", "rates": [900]},
+    },
+    "stiff, strong": {
+        "rear.spring": {"kind": "linear", "rate": 60e3, "stops": STOPS},
+        "rear.damper": {"kind": "zoned", "rates": [4000]},
+    },
     "digressive with mount and friction": {
-        "rear.damper": {"kind": "zoned", "rates": [3000, 600], "limits": [0.05], "ratio": "1:2", "friction": 25, "mount": {"rate": 4e5}},
+        "rear.damper": {
+            "kind": "zoned",
+            "rates": [3000, 600],
+            "limits": [0.05],
+            "ratio": "1:2",
+            "friction": 25,
+            "mount": {"rate": 4e5},
+        },
         "rear.friction": {"force": 100},
     },
 }
@@ -114,7 +129,8 @@ SUSPENSIONS = {
 
 @pytest.mark.parametrize("name", SUSPENSIONS)
 def test_invariant_of_the_body_acceleration(name):
-    """At sqrt(kt/mu) the wheel's mass and the tyre cancel: the body's acceleration is mu/ms of the road's, whatever lies between."""
+    """At sqrt(kt/mu) the wheel's mass and the tyre cancel: the body's acceleration is mu/ms of the road's, whatever
+    lies between."""
     form = FORMS["qc_invariant_accel"]
     frequency = form["inputs"]["f"]
     assert frequency == pytest.approx(np.sqrt(KT / MU) / (2 * np.pi), rel=1e-12)
@@ -169,7 +185,9 @@ def test_bump_on_the_linear_car():
 @pytest.mark.parametrize("point", FORMS["const_freq_spring"]["expected"], ids=lambda p: f"{p['x']} m")
 def test_constant_frequency_spring(point):
     inputs = FORMS["const_freq_spring"]["inputs"]
-    spring = ConstantFrequencySpring(preload=inputs["F0"], frequency=inputs["fn"], stops=Stops(rebound=-0.1001, compression=0.1001))
+    spring = ConstantFrequencySpring(
+        preload=inputs["F0"], frequency=inputs["fn"], stops=Stops(rebound=-0.1001, compression=0.1001)
+    )
     assert float(spring.force_at(point["x"])) == pytest.approx(point["F"], rel=1e-12)
     assert float(spring.rate_at(point["x"])) == pytest.approx(point["k"], rel=1e-6)
     assert float(spring.frequency_at(point["x"])) == pytest.approx(inputs["fn"], rel=1e-6)

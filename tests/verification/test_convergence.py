@@ -22,7 +22,13 @@ def test_fourth_order(model, tyre):
     plant = build(load_vehicle("chapter3", "linear", LINEAR), model)
     manoeuvre = SmoothBump()
     car = QuarterCar(
-        483.5, linear_spring(4743, 1.2), zoned_damper([1500], []), mount=None, rod_friction=0.0, linkage_friction=0.0, tyre=tyre
+        483.5,
+        linear_spring(4743, 1.2),
+        zoned_damper([1500], []),
+        mount=None,
+        rod_friction=0.0,
+        linkage_friction=0.0,
+        tyre=tyre,
     )
     road = manoeuvre.road()
     times = np.linspace(0.2, 1.4, 13)
@@ -53,7 +59,8 @@ def test_free_decay_is_the_matrix_exponential():
     k, c, kt, ms, mu = 4743 / 9.81 * (2 * np.pi * 1.2) ** 2, 1500.0, 176e3, 483.5, 39.5
     # state: body, wheel, their velocities, as departures from rest
     matrix = np.array(
-        [[0, 0, 1, 0], [0, 0, 0, 1], [-k / ms, k / ms, -c / ms, c / ms], [k / mu, -(k + kt) / mu, c / mu, -c / mu]], dtype=float
+        [[0, 0, 1, 0], [0, 0, 0, 1], [-k / ms, k / ms, -c / ms, c / ms], [k / mu, -(k + kt) / mu, c / mu, -c / mu]],
+        dtype=float,
     )
     body = run["body_displacement"] - run["body_displacement"][0]
     wheel = run["wheel_displacement"] - run["wheel_displacement"][0]
@@ -63,4 +70,6 @@ def test_free_decay_is_the_matrix_exponential():
     assert np.abs(state[:2]).max() > 1e-3, "the car still moves"
     for later in (2100, 2500, 3000, 4000):
         expected = expm(matrix * 5e-4 * (later - begin)) @ state
-        np.testing.assert_allclose([body[later], wheel[later], speeds[0][later], speeds[1][later]], expected, rtol=0, atol=1e-9)
+        np.testing.assert_allclose(
+            [body[later], wheel[later], speeds[0][later], speeds[1][later]], expected, rtol=0, atol=1e-9
+        )

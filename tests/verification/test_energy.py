@@ -79,7 +79,9 @@ def test_massless_wheel(case, manoeuvre):
 
 def test_an_undamped_car_keeps_its_energy():
     """No damper to speak of: after the road is flat again the energy stays, for a hundred periods of the wheel."""
-    vehicle = load_vehicle("chapter3", "linear", {"rear.friction": None, "rear.damper": {"kind": "zoned", "rates": [1e-9]}})
+    vehicle = load_vehicle(
+        "chapter3", "linear", {"rear.friction": None, "rear.damper": {"kind": "zoned", "rates": [1e-9]}}
+    )
     run = simulate(build(vehicle, "quarter_2dof"), Bump(height=0.03, duration=10.0), step=5e-4)
     wheel_speed = run["body_velocity"] + run["suspension_speed"]
     stored = (

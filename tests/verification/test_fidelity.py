@@ -1,4 +1,5 @@
-"""Where two models describe the same motion, they must give it: each pair under the conditions that make the simpler one exact."""
+"""Where two models describe the same motion, they must give it: each pair under the conditions that make the simpler
+one exact."""
 
 from __future__ import annotations
 
@@ -59,7 +60,9 @@ SLOW_LEFT_STEP = SLOW_STEP.model_copy(update={"wheels": ("left",)})
 def car(tmp_path):
     path = tmp_path / "car.toml"
     path.write_text(CAR)
-    return lambda **overrides: load_vehicle(path, overrides={key.replace("__", "."): value for key, value in overrides.items()})
+    return lambda **overrides: load_vehicle(
+        path, overrides={key.replace("__", "."): value for key, value in overrides.items()}
+    )
 
 
 def apart(found, expected):
@@ -89,7 +92,10 @@ def test_a_car_whose_axles_decouple_is_two_quarter_cars(car, manoeuvre):
 def test_the_axles_couple_with_another_pitch_inertia(car):
     """The counterpart: the test above can tell."""
     vehicle = car(**{"loads.ko.inertia": [620.0, 2400.0, 3000.0]})
-    whole, alone = (simulate(build(vehicle, model, axle=axle), STEP) for model, axle in (("full_7dof", None), ("quarter_2dof", "front")))
+    whole, alone = (
+        simulate(build(vehicle, model, axle=axle), STEP)
+        for model, axle in (("full_7dof", None), ("quarter_2dof", "front"))
+    )
     assert apart(whole["body_displacement"] - FRONT * whole["pitch_angle"], alone["body_displacement"]) > 1e-3
 
 
@@ -101,21 +107,29 @@ def constant_frequency(frequency):
 def side_of(pitch_inertia):
     """The left half of the car in the reference: half the body, two wheels with mass, heave and pitch."""
     front = AxleData(
-        lambda preload: lambda x: preload + 24e3 * x, zoned_damper([2600, 1200], [0.15], 1, 2), STOPS, unsprung=40.0, tyre=190e3
+        lambda preload: lambda x: preload + 24e3 * x,
+        zoned_damper([2600, 1200], [0.15], 1, 2),
+        STOPS,
+        unsprung=40.0,
+        tyre=190e3,
     )
     rear = AxleData(constant_frequency(1.3), zoned_damper([2800, 1300], [0.15], 1, 2), STOPS, unsprung=45.0, tyre=200e3)
     data = CarData(2.7, 0.31, {"ko": (MASS, (-FRONT, 0.0, 0.27), (ROLL, pitch_inertia))}, front, rear)
     side = Car.of(data, "full_7dof")
     left = tuple(wheel for wheel in side.wheels if wheel.y > 0)
     middle = tuple(type(wheel)(**{**vars(wheel), "y": 0.0, "bar": 0.0}) for wheel in left)
-    return Car(MASS / 2, (1.0, pitch_inertia / 2), (-FRONT, 0.0), 0.58, ("z", "pitch"), middle, sprung_wheels=True, beam=False)
+    return Car(
+        MASS / 2, (1.0, pitch_inertia / 2), (-FRONT, 0.0), 0.58, ("z", "pitch"), middle, sprung_wheels=True, beam=False
+    )
 
 
 def test_a_symmetric_car_is_twice_its_side(car):
     """OM7 on a road equal left and right against a half car of four degrees of freedom."""
     whole = simulate(build(car(**{"loads.ko.inertia": [620.0, 2300.0, 3000.0]}), "full_7dof"), BUMP)
     half = solve(
-        side_of(2300.0), Excitation({"fl": bump_road(0.04, 2.5, 15.0, 0.1), "rl": bump_road(0.04, 2.5, 15.0, 0.1 + 2.7 / 15.0)}), 1.5
+        side_of(2300.0),
+        Excitation({"fl": bump_road(0.04, 2.5, 15.0, 0.1), "rl": bump_road(0.04, 2.5, 15.0, 0.1 + 2.7 / 15.0)}),
+        1.5,
     )
     assert apart(whole["body_displacement"], half.heave) < 1e-4
     assert apart(whole["pitch_angle"], half.pitch) < 1e-4
@@ -141,7 +155,10 @@ def test_a_side_on_massless_wheels_is_half_a_symmetric_car(car, manoeuvre):
 def test_a_massless_car_whose_axles_decouple_is_two_quarter_cars(car, axle):
     """Jyy = m l1 l2: OM4 over each axle moves as OM1."""
     vehicle = car()
-    whole, alone = simulate(build(vehicle, "full_3dof"), STEP), simulate(build(vehicle, "quarter_1dof", axle=axle), STEP)
+    whole, alone = (
+        simulate(build(vehicle, "full_3dof"), STEP),
+        simulate(build(vehicle, "quarter_1dof", axle=axle), STEP),
+    )
     ahead = FRONT if axle == "front" else -REAR
     assert apart(whole["body_displacement"] - ahead * whole["pitch_angle"], alone["body_displacement"]) < 1e-7
     assert apart(whole[f"{axle[0]}l_wheel_load"], alone["wheel_load"]) < 1e-7
@@ -151,9 +168,9 @@ def test_a_massless_car_whose_axles_decouple_is_two_quarter_cars(car, axle):
 def test_an_axle_is_a_car_whose_rear_cannot_hold_it_upright(car, beam, four_wheels):
     """OM6 and OM2 front, springs at the wheels, against OM7 and OM4 on three wheels, so to speak.
 
-    A beam with its mass in the wheels is two single wheels. The car gets the front axle's share of roll inertia as a whole, a rear
-    track of 0.1 mm without a bar (no roll stiffness), a rear roll centre at the height of the centre of gravity (the rear's share of
-    the mass does not topple) and Jyy = m l1 l2, so that the rear takes no part.
+    A beam with its mass in the wheels is two single wheels. The car gets the front axle's share of roll inertia as a
+    whole, a rear track of 0.1 mm without a bar (no roll stiffness), a rear roll centre at the height of the centre of
+    gravity (the rear's share of the mass does not topple) and Jyy = m l1 l2, so that the rear takes no part.
     """
     manoeuvre = STEP.model_copy(update={"wheels": ("fl",)})
     axle = simulate(build(car(), beam, axle="front"), manoeuvre)
@@ -188,10 +205,15 @@ STIFF, LIGHT = 4e7, 0.4
     ],
 )
 def test_stiff_tyres_and_light_wheels_are_no_tyres(car, simple, full, axle, manoeuvre):
-    """OM5, OM6 and OM7 tend to OM1, OM2 and OM4: the body's difference is small, and falls as the compliance of the tyre does."""
+    """OM5, OM6 and OM7 tend to OM1, OM2 and OM4: the body's difference is small, and falls as the compliance of the
+    tyre does."""
     step = 5e-5
     expected = simulate(build(car(), simple, axle=axle), manoeuvre, step=step, record_every=20)
-    moved = [name for name in ("body_displacement", "roll_angle") if name in expected.channels and np.ptp(expected[name]) > 2e-3]
+    moved = [
+        name
+        for name in ("body_displacement", "roll_angle")
+        if name in expected.channels and np.ptp(expected[name]) > 2e-3
+    ]
     loads = [name for name in expected.channels if name.endswith("wheel_load")]
     difference = {}
     for softer in (1.0, 4.0):
@@ -201,7 +223,9 @@ def test_stiff_tyres_and_light_wheels_are_no_tyres(car, simple, full, axle, mano
         difference[softer] = {name: apart(found[name], expected[name]) for name in moved}
         if softer == 1.0:
             for name in loads:  # on average: the wheel still rings where a slope jumps
-                assert np.sqrt(np.mean((found[name] - LIGHT * 9.81 - expected[name]) ** 2)) < 1e-3 * np.ptp(expected[name]), name
+                assert np.sqrt(np.mean((found[name] - LIGHT * 9.81 - expected[name]) ** 2)) < 1e-3 * np.ptp(
+                    expected[name]
+                ), name
     assert moved
     for name in moved:
         assert difference[1.0][name] < 2e-3

@@ -15,15 +15,18 @@ from vehicles.vehicle import load_vehicle
 from .plain_car import Driven
 from .reference_handling import WHEELS, ReferenceCar, recorded_gears
 
-BODY = ("yaw_rate", "lateral_acceleration", "longitudinal_acceleration", "speed", "side_slip_angle", "roll_angle", "pitch_angle",
+BODY = ("yaw_rate", "lateral_acceleration", "longitudinal_acceleration", "speed", "side_slip_angle", "roll_angle",
+    "pitch_angle",
         "body_displacement", "engine_speed")  # fmt: skip
-WHEEL = ("wheel_load", "suspension_deflection", "slip_angle", "slip_ratio", "longitudinal_force", "lateral_force", "aligning_moment",
+WHEEL = ("wheel_load", "suspension_deflection", "slip_angle", "slip_ratio", "longitudinal_force", "lateral_force",
+    "aligning_moment",
          "wheel_speed")  # fmt: skip
 CARS = {"s_class": ("configuration_4", 1.10), "bmw_320i": (None, 1.10)}
 """Characteristics, and the angle of the steering wheel [rad] that gives about 5 m/s² at 20 m/s."""
 WITHIN = 2.5e-3
-"""Largest difference of a channel over its range. The car looks its toe and camber up in rows of 5° of steering, with straight lines
-between them, and leaves out what little work the tyre's moments do on their change with steering: both tell where the tables are bent."""
+"""Largest difference of a channel over its range. The car looks its toe and camber up in rows of 5° of steering, with
+straight lines between them, and leaves out what little work the tyre's moments do on their change with steering: both
+tell where the tables are bent."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +38,9 @@ class Case:
 
     def worst(self, names: tuple[str, ...]) -> dict[str, float]:
         """Largest difference of each channel as a share of its range."""
-        return {name: float(np.abs(self.run[name] - self.reference[name]).max() / np.ptp(self.run[name])) for name in names}
+        return {
+            name: float(np.abs(self.run[name] - self.reference[name]).max() / np.ptp(self.run[name])) for name in names
+        }
 
 
 def _both(car: str, speed: float, duration: float, **inputs: list[tuple[float, float]]) -> Case:
@@ -79,11 +84,14 @@ def test_step_steer(step_steer):
 
 
 def test_braking_in_a_turn(braking_in_turn):
-    """Every channel over two seconds, as a share of its range; the tyres slip both ways at once, and the gearbox shifts down."""
+    """Every channel over two seconds, as a share of its range; the tyres slip both ways at once, and the gearbox shifts
+    down."""
     run = braking_in_turn.run
     assert run["lateral_acceleration"].max() > 4.0
     assert run["longitudinal_acceleration"].min() < -3.0
-    off = {name: share for name, share in braking_in_turn.worst((*BODY, *_every_wheels(WHEEL))).items() if share > WITHIN}
+    off = {
+        name: share for name, share in braking_in_turn.worst((*BODY, *_every_wheels(WHEEL))).items() if share > WITHIN
+    }
     assert not off
 
 

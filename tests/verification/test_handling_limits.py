@@ -1,4 +1,5 @@
-"""The car that drives freely against closed forms: single-track model, lateral load transfer, energy, symmetry, straight running."""
+"""The car that drives freely against closed forms: single-track model, lateral load transfer, energy, symmetry,
+straight running."""
 
 from __future__ import annotations
 
@@ -32,7 +33,13 @@ def turn(angle: float, rise: float = 0.5, start: float = 0.5):
 @pytest.fixture(scope="module")
 def bicycle(tmp_path_factory):
     given = FORMS["bicycle_2090"]["inputs"]
-    car = PlainCar(mass=given["m"], yaw_inertia=given["Iz"], front=given["a"], rear=given["b"], cornering=(given["Cf"], given["Cr"]))
+    car = PlainCar(
+        mass=given["m"],
+        yaw_inertia=given["Iz"],
+        front=given["a"],
+        rear=given["b"],
+        cornering=(given["Cf"], given["Cr"]),
+    )
     return build(car.vehicle(tmp_path_factory.mktemp("bicycle")), HANDLING)
 
 
@@ -72,7 +79,8 @@ def test_understeer_gradient_of_the_single_track_model(bicycle, speed):
 
 
 def test_step_response_follows_the_single_track_model_in_time(tmp_path):
-    """Yaw rate and side slip of the linear two-state model, integrated on its own, with the tyres' relaxation length as a lag.
+    """Yaw rate and side slip of the linear two-state model, integrated on its own, with the tyres' relaxation length as
+    a lag.
 
     Stiff springs: the body must not roll, or its centre of gravity moves sideways over the wheels.
     """
@@ -108,7 +116,8 @@ def test_step_response_follows_the_single_track_model_in_time(tmp_path):
 
 
 def test_roll_and_load_transfer_of_the_closed_form(tmp_path):
-    """Light wheels of little inertia (their gyroscopic moment is no part of the formula), stiff tyres, straight wheel paths."""
+    """Light wheels of little inertia (their gyroscopic moment is no part of the formula), stiff tyres, straight wheel
+    paths."""
     form = FORMS["load_transfer"]
     g, expected = form["inputs"], form["expected"]
     wheels = 4 * 2.0
@@ -126,7 +135,9 @@ def test_roll_and_load_transfer_of_the_closed_form(tmp_path):
         cornering=(150000.0, 150000.0),
         damping=(6000.0, 5000.0),
     )
-    run = simulate(build(car.vehicle(tmp_path), HANDLING), Driven(duration=8.0, speed=20.0, inputs=turn(0.0531, rise=2.0)))
+    run = simulate(
+        build(car.vehicle(tmp_path), HANDLING), Driven(duration=8.0, speed=20.0, inputs=turn(0.0531, rise=2.0))
+    )
     share = g["ay"] / run["lateral_acceleration"][-1]
     assert share == pytest.approx(1.0, abs=0.02)
     assert math.degrees(run["roll_angle"][-1]) * share == pytest.approx(expected["phi_deg"], rel=0.02)
@@ -190,7 +201,8 @@ def test_coast_down_of_the_cars_balances(name, characteristics):
         channels = ("slip_ratio", "slip_angle", "camber_angle", "wheel_load", "steer_angle")
         kappa, alpha, camber, load, steer = (run[f"{corner}_{each}"][every] for each in channels)
         at = [
-            tyre.evaluate(k, math.tan(a), c, z, rolling=v) for k, a, c, z, v in zip(kappa, alpha, camber, load, speed[every], strict=True)
+            tyre.evaluate(k, math.tan(a), c, z, rolling=v)
+            for k, a, c, z, v in zip(kappa, alpha, camber, load, speed[every], strict=True)
         ]
         rolling = np.array([each.rolling_moment for each in at])
         radius = np.array([each.rolling_radius for each in at])
@@ -208,8 +220,9 @@ def test_coast_down_of_the_cars_balances(name, characteristics):
 
 
 def test_a_drive_shaft_turns_the_wheel_and_a_brake_the_carrier_too():
-    """At given slips, thus at given forces of the road, all that a drive shaft does is turn its wheel: a wheel that spins up on ice lifts
-    nothing. A brake holds the carrier by its torque T, which adds ``T theta'`` to the travel, theta the carrier's turn over the travel.
+    """At given slips, thus at given forces of the road, all that a drive shaft does is turn its wheel: a wheel that
+    spins up on ice lifts nothing. A brake holds the carrier by its torque T, which adds ``T theta'`` to the travel,
+    theta the carrier's turn over the travel.
     """
     from susp_mj.compiled import install
 
@@ -239,7 +252,10 @@ def test_a_drive_shaft_turns_the_wheel_and_a_brake_the_carrier_too():
     kinematics = vehicle.rear.kinematics
     assert kinematics is not None
     origin = kinematics.travel.index(0.0)
-    turn = np.gradient(kinematics.path("longitudinal_centre") - kinematics.path("longitudinal"), kinematics.travel)[origin] / 0.316
+    turn = (
+        np.gradient(kinematics.path("longitudinal_centre") - kinematics.path("longitudinal"), kinematics.travel)[origin]
+        / 0.316
+    )
     assert abs(turn) > 0.1
     assert braked[0] - rest[0] == pytest.approx(torque * turn, rel=2e-3)
 
@@ -254,13 +270,27 @@ def test_straight_running_is_steady_from_the_first_instant(name, characteristics
     assert np.abs(run["yaw_angle"]).max() < 1e-10
     assert np.abs(run["position_y"]).max() < 1e-9
     assert np.abs(run["speed"] - speed).max() < 1e-9
-    for channel in ("roll_angle", "pitch_angle", "body_displacement", "fl_wheel_load", "rr_suspension_deflection", "engine_speed"):
+    for channel in (
+        "roll_angle",
+        "pitch_angle",
+        "body_displacement",
+        "fl_wheel_load",
+        "rr_suspension_deflection",
+        "engine_speed",
+    ):
         assert np.ptp(run[channel]) < 1e-7 * max(1.0, abs(run[channel][0])), channel
     for channel in ("body_acceleration", "lateral_acceleration", "longitudinal_acceleration"):
         assert np.abs(run[channel]).max() < 1e-7, channel
 
 
-MIRRORED = {"lateral_acceleration": -1, "yaw_rate": -1, "roll_angle": -1, "body_displacement": 1, "speed": 1, "position_y": -1}
+MIRRORED = {
+    "lateral_acceleration": -1,
+    "yaw_rate": -1,
+    "roll_angle": -1,
+    "body_displacement": 1,
+    "speed": 1,
+    "position_y": -1,
+}
 MIRRORED_WHEELS = {
     "wheel_load": 1,
     "suspension_deflection": 1,
@@ -281,7 +311,10 @@ def test_left_and_right_turns_mirror(name, characteristics):
     assert abs(left["lateral_acceleration"]).max() > 5.0
     pairs = [(name, name, sign) for name, sign in MIRRORED.items()]
     for quantity, sign in MIRRORED_WHEELS.items():
-        pairs += [(f"{a}_{quantity}", f"{b}_{quantity}", sign) for a, b in (("fl", "fr"), ("fr", "fl"), ("rl", "rr"), ("rr", "rl"))]
+        pairs += [
+            (f"{a}_{quantity}", f"{b}_{quantity}", sign)
+            for a, b in (("fl", "fr"), ("fr", "fl"), ("rl", "rr"), ("rr", "rl"))
+        ]
     for one, other, sign in pairs:
         size = max(1.0, float(np.abs(left[one]).max()))
         assert np.abs(left[one] - sign * right[other]).max() < 1e-9 * size, one

@@ -82,7 +82,8 @@ LEANING = {"loads.ko.cg": [-1.5572, 0.0, 0.3259], "loads.full.cg": [-1.6680, 0.1
 
 @pytest.mark.parametrize(("model", "axle"), [each for each in MODELS if each[0].startswith(("axle", "full"))])
 def test_a_load_beside_the_middle(model, axle):
-    """Centre of gravity 0.1 m to the left: the car leans left; loads about the middle balance, gravity topples by ``m g h phi``."""
+    """Centre of gravity 0.1 m to the left: the car leans left; loads about the middle balance, gravity topples by ``m g
+    h phi``."""
     car = load_vehicle("s_class", "configuration_3", {**PLACES, **LEANING})
     plant = build(car, model, load="full", axle=axle)
     assert np.abs(static_equilibrium(plant).qacc).max() < 1e-8
@@ -94,8 +95,14 @@ def test_a_load_beside_the_middle(model, axle):
     behind = LOADS["full"][1]
     axles = {"front": 1 - behind / WHEELBASE, "rear": behind / WHEELBASE}
     height = 0.32 + 0.3022
-    topple = sum(2063.0 * axles[each] * (height - centre) for each, centre in (("front", 0.08), ("rear", 0.12)) if axle in (None, each))
-    moment = sum((run[n][0] if n[1] == "l" else -run[n][0]) * TRACK / 2 for n in run.channels if n.endswith("wheel_load"))
+    topple = sum(
+        2063.0 * axles[each] * (height - centre)
+        for each, centre in (("front", 0.08), ("rear", 0.12))
+        if axle in (None, each)
+    )
+    moment = sum(
+        (run[n][0] if n[1] == "l" else -run[n][0]) * TRACK / 2 for n in run.channels if n.endswith("wheel_load")
+    )
     assert moment == pytest.approx(mass * G * 0.1 - topple * G * roll, rel=1e-3)
 
     data = S_CLASS["configuration_3"]
@@ -115,8 +122,12 @@ def test_leaning_by_hand(tmp_path):
     run = simulate(build(load_vehicle(path), "full_3dof", load="one_sided"), NOTHING)
     mass, (x, y, z), _ = LINEAR_DATA.loads["one_sided"]
     share = {"front": (2.9 + x) / 2.9, "rear": -x / 2.9}
-    stiffness = sum((rate + axle.bar) * axle.track**2 / 2 for axle, rate in ((LINEAR_DATA.front, 24e3), (LINEAR_DATA.rear, 21e3)))
-    topple = sum(mass * G * share[each] * (0.31 + z - getattr(LINEAR_DATA, each).roll_centre) for each in ("front", "rear"))
+    stiffness = sum(
+        (rate + axle.bar) * axle.track**2 / 2 for axle, rate in ((LINEAR_DATA.front, 24e3), (LINEAR_DATA.rear, 21e3))
+    )
+    topple = sum(
+        mass * G * share[each] * (0.31 + z - getattr(LINEAR_DATA, each).roll_centre) for each in ("front", "rear")
+    )
     assert run["roll_angle"][0] == pytest.approx(-mass * G * y / (stiffness - topple), rel=1e-6)
 
 
@@ -133,7 +144,8 @@ def test_a_load_that_cannot_be_carried(model, axle):
 
 
 def test_a_load_that_would_turn_the_car_over():
-    """Springs too soft for the height of the centre of gravity: an error in one line, not a start from an unstable balance."""
+    """Springs too soft for the height of the centre of gravity: an error in one line, not a start from an unstable
+    balance."""
     soft = {"kind": "linear", "rate": 4000.0, "stops": {"rebound": -0.1, "compression": 0.1}}
     changes = {"front.spring": soft, "rear.spring": soft, "front.anti_roll_bar": None, "rear.anti_roll_bar": None}
     assert 2 * 4000 * 2 * (TRACK / 2) ** 2 < 1913 * G * (0.32 + 0.3259 - 0.12)

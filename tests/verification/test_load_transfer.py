@@ -12,7 +12,8 @@ from susp_mj import simulate
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
-# sprung mass, height of its centre of gravity over the ground, roll centres, distances of the axles, track, roll stiffnesses
+# sprung mass, height of its centre of gravity over the ground, roll centres, distances of the axles, track, roll
+# stiffnesses
 M, H, ZF, ZR, A, B, T, KF, KR, AY, G = 1913.0, 0.6459, 0.08, 0.12, 1.5572, 1.5238, 1.4, 50e3, 34e3, 7.0, 9.81
 MF, MR = M * B / (A + B), M * A / (A + B)
 ABOVE = (MF * (H - ZF) + MR * (H - ZR)) / M
@@ -63,7 +64,9 @@ def steady(tmp_path):
     def found(model, axle=None, acceleration=AY, **overrides):
         """Roll angle and transfers at the end of a run that has come to rest."""
         vehicle = load_vehicle(path, overrides={key.replace("__", "."): value for key, value in overrides.items()})
-        run = simulate(build(vehicle, model, axle=axle), LateralForce(acceleration=acceleration, duration=8.0, rise_time=1.0))
+        run = simulate(
+            build(vehicle, model, axle=axle), LateralForce(acceleration=acceleration, duration=8.0, rise_time=1.0)
+        )
         assert np.abs(run["roll_acceleration"][-500:]).max() < 1e-6
         transfer = {
             each[0]: (run[f"{each[0]}r_wheel_load"][-1] - run[f"{each[0]}l_wheel_load"][-1]) / 2
@@ -100,8 +103,8 @@ def test_stiff_tyres(steady):
 def test_tyres_in_series(steady, acceleration):
     """With tyres each side gives way twice; the links tilt the wheels' line on the tyres besides.
 
-    Axle by axle, d the load moved and f the part of it that passes through the springs: tyres tilt by ``2 d / (k_t t)``, springs by
-    ``2 f / (k t)`` on top, and ``d = f + m a_y z / t``. Both axles share one roll angle.
+    Axle by axle, d the load moved and f the part of it that passes through the springs: tyres tilt by ``2 d / (k_t
+    t)``, springs by ``2 f / (k t)`` on top, and ``d = f + m a_y z / t``. Both axles share one roll angle.
     """
     tyre = 176e3 * T**2 / 2
     series = [1 / (1 / tyre + 1 / k) for k in (KF, KR)]
@@ -126,7 +129,9 @@ def test_all_of_the_overturning_moment_reaches_the_ground(steady, model, toleran
 @pytest.mark.parametrize("model", ["full_3dof", "full_7dof"])
 def test_a_bar_moves_load_to_its_axle(steady, model):
     """A bar of rate c adds the roll stiffness ``c t²/2`` to its axle alone."""
-    phi, moved = steady(model, acceleration=4.0, front__tyre__rate=5e6, rear__tyre__rate=5e6, rear__anti_roll_bar__rate=10e3)
+    phi, moved = steady(
+        model, acceleration=4.0, front__tyre__rate=5e6, rear__tyre__rate=5e6, rear__anti_roll_bar__rate=10e3
+    )
     expected = by_hand(KF, KR + 10e3 * T**2 / 2, 4.0)
     tolerance = 1e-6 if model == "full_3dof" else 0.02
     assert (phi, moved["f"], moved["r"]) == pytest.approx(expected, rel=tolerance)
@@ -138,7 +143,12 @@ def test_a_bar_moves_load_to_its_axle(steady, model):
 def test_rigid_axle(steady, model, tolerance, base):
     """The front axle alone: springs at the spring base, roll stiffness ``k b²/2``, the bar at the wheels."""
     rate = 70e3
-    overrides = {"front__spring_base": base, "front__spring__rate": rate, "front__anti_roll_bar__rate": 12e3, "front__tyre__rate": 5e6}
+    overrides = {
+        "front__spring_base": base,
+        "front__spring__rate": rate,
+        "front__anti_roll_bar__rate": 12e3,
+        "front__tyre__rate": 5e6,
+    }
     phi, moved = steady(model, axle="front", acceleration=4.0, **overrides)
     stiffness = rate * base**2 / 2 + 12e3 * T**2 / 2
     expected = MF * (H - ZF) * 4.0 / (stiffness - MF * G * (H - ZF))

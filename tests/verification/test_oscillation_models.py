@@ -1,4 +1,5 @@
-"""Every oscillation model of an axle, a side or the whole car against an independent solver of small-angle equations."""
+"""Every oscillation model of an axle, a side or the whole car against an independent solver of small-angle
+equations."""
 
 from __future__ import annotations
 
@@ -99,7 +100,9 @@ def s_class_axle(frequency, rebound_force, damper, bar, base, roll_centre):
 
     def spring(preload):
         top = constant_frequency_spring(preload, frequency)(0.1)
-        return progressive_spring(preload, frequency, lower=(-0.1, rebound_force), upper=(0.1, top), onset=0.0, exponent=2.0)
+        return progressive_spring(
+            preload, frequency, lower=(-0.1, rebound_force), upper=(0.1, top), onset=0.0, exponent=2.0
+        )
 
     return AxleData(spring, damper, (-0.1, 0.1, 1e7), 1.5e6, 25.0, 150.0, bar, 1.4, base, roll_centre)
 
@@ -168,10 +171,22 @@ MANOEUVRES = {
         lambda car: on(("fr", "rr"), step_road(-0.06, 0.1, 0.02)),
     ),
     "bump": (Bump(height=0.03, length=2.5, speed=SPEED, start=0.1), bump),
-    "lateral": (LateralForce(acceleration=4.0, start=0.1, rise_time=0.2), lambda car: Excitation({}, lateral=rise(4.0))),
-    "right turn": (LateralForce(acceleration=-4.0, start=0.1, rise_time=0.2), lambda car: Excitation({}, lateral=rise(-4.0))),
-    "hard turn": (LateralForce(acceleration=7.0, start=0.1, rise_time=0.2), lambda car: Excitation({}, lateral=rise(7.0))),
-    "braking": (LongitudinalForce(acceleration=-5.0, start=0.1, rise_time=0.2), lambda car: Excitation({}, longitudinal=rise(-5.0))),
+    "lateral": (
+        LateralForce(acceleration=4.0, start=0.1, rise_time=0.2),
+        lambda car: Excitation({}, lateral=rise(4.0)),
+    ),
+    "right turn": (
+        LateralForce(acceleration=-4.0, start=0.1, rise_time=0.2),
+        lambda car: Excitation({}, lateral=rise(-4.0)),
+    ),
+    "hard turn": (
+        LateralForce(acceleration=7.0, start=0.1, rise_time=0.2),
+        lambda car: Excitation({}, lateral=rise(7.0)),
+    ),
+    "braking": (
+        LongitudinalForce(acceleration=-5.0, start=0.1, rise_time=0.2),
+        lambda car: Excitation({}, longitudinal=rise(-5.0)),
+    ),
 }
 MODELS = [("axle_2dof", "front"), ("axle_2dof", "rear"), ("pitch_2dof", None), ("full_3dof", None)]
 MODELS += [("axle_4dof", "front"), ("axle_4dof", "rear"), ("full_7dof", None)]
@@ -273,7 +288,8 @@ def test_the_road_cannot_pull_in_a_turn(vehicle, name, model):
 
 
 def test_a_massless_beam_stays_on_the_road_while_one_spring_seat_pulls(vehicle):
-    """The road cannot pull on a wheel; a seat inside the track may pull on the beam as long as both wheels press on the road."""
+    """The road cannot pull on a wheel; a seat inside the track may pull on the beam as long as both wheels press on the
+    road."""
     drop = RoadStep(height=-0.035, start=0.1, rise_time=0.03, duration=0.6, wheels=("right",))
     run = simulate(build(vehicle("linear"), "axle_2dof", axle="rear"), drop, step=FINE, record_every=4)
     car = Car.of(LINEAR_DATA, "axle_2dof", "ko", "rear")
@@ -297,8 +313,11 @@ def test_the_default_step_is_short_enough(vehicle, model, axle, manoeuvre):
 
 @pytest.mark.parametrize(("model", "axle"), MODELS)
 def test_accelerations(vehicle, model, axle):
-    """Of the body, the wheels and the driver's seat; the seat of the shipped car lies 1.45 m behind the front axle, 0.38 m left."""
-    run, expected, car = histories(vehicle, "configuration_3", model, axle, "ko", "left step" if model in SIDES else "step")
+    """Of the body, the wheels and the driver's seat; the seat of the shipped car lies 1.45 m behind the front axle,
+    0.38 m left."""
+    run, expected, car = histories(
+        vehicle, "configuration_3", model, axle, "ko", "left step" if model in SIDES else "step"
+    )
     pitching, rolling = expected.pitch_acceleration, expected.roll_acceleration
     pairs = {"body_acceleration": expected.acceleration}
     if "pitch" in car.freedoms:
@@ -346,7 +365,11 @@ def test_energy_is_only_lost(vehicle):
     energy += 9.81 * (1500 * run["body_displacement"] - above_axis * run["roll_angle"] ** 2 / 2)
     taken = np.zeros_like(energy)
     for axle, data, length, other in (("f", LINEAR_DATA.front, 1.3, 1.6), ("r", LINEAR_DATA.rear, -1.6, 1.3)):
-        preload, rate, damping = 1500 * 9.81 * other / 2.9 / 2, {"f": 24e3, "r": 21e3}[axle], {"f": 1900.0, "r": 2100.0}[axle]
+        preload, rate, damping = (
+            1500 * 9.81 * other / 2.9 / 2,
+            {"f": 24e3, "r": 21e3}[axle],
+            {"f": 1900.0, "r": 2100.0}[axle],
+        )
         for side, y in (("l", data.track / 2), ("r", -data.track / 2)):
             x, v = run[f"{axle}{side}_suspension_deflection"], run[f"{axle}{side}_suspension_speed"]
             wheel = run[f"{axle}{side}_wheel_displacement"]

@@ -1,4 +1,5 @@
-"""The random road has the spectrum, coherence and delay it claims, and a linear quarter car answers it as white noise."""
+"""The random road has the spectrum, coherence and delay it claims, and a linear quarter car answers it as white
+noise."""
 
 from __future__ import annotations
 
@@ -93,7 +94,11 @@ def test_white_noise_variances_of_the_quarter_car(tmp_path):
     speed = 20.0
     noise = 2 * np.pi**2 * 0.1**2 * TABLE["C"] * speed
     runs = [
-        simulate(plant, RandomRoad(road_class="C", speed=speed, duration=800.0, longest=500.0, shortest=0.1, seed=seed), record_every=4)
+        simulate(
+            plant,
+            RandomRoad(road_class="C", speed=speed, duration=800.0, longest=500.0, shortest=0.1, seed=seed),
+            record_every=4,
+        )
         for seed in (1, 2)
     ]
     begin = runs[0].time > 20.0

@@ -86,7 +86,8 @@ def test_written_model_runs_the_same(example, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "key"), [({"frequency": "2 Hz"}, "stops.compression"), ({"exponent": 2.5}, "exponent"), ({"frequncy": 1}, "frequncy")]
+    ("change", "key"),
+    [({"frequency": "2 Hz"}, "stops.compression"), ({"exponent": 2.5}, "exponent"), ({"frequncy": 1}, "frequncy")],
 )
 def test_impossible_gas_springs(example, change, key):
     """At 2 Hz and n = 1.3 the gas is used up after 80.8 mm, before the stop at 100 mm."""

@@ -62,7 +62,9 @@ def height_at(position: dict[str, Form], x: float, y: float) -> Form:
     return height
 
 
-def add_axle(builder: ModelBuilder, topology: Topology, body: Any, position: dict[str, Form], corners: Sequence[Corner]) -> None:
+def add_axle(
+    builder: ModelBuilder, topology: Topology, body: Any, position: dict[str, Form], corners: Sequence[Corner]
+) -> None:
     """Wheels and suspension of one axle (or one side of it)."""
     if topology.rigid_axle:
         (_sprung_rigid_axle if topology.sprung_wheels else _massless_rigid_axle)(builder, body, position, corners)
@@ -95,7 +97,9 @@ def add_suspension(builder: ModelBuilder, corner: Corner, deflection: Form, *, l
     for part, element in elements.items():
         if isinstance(element, AntiRollBar):
             bar = AntiRollBar(rate=element.rate / lever**2)
-            builder.force(corner.name(part), bar, deflection, Partner(channel_name(str(corner.partner), "bar"), 1.0, -1.0))
+            builder.force(
+                corner.name(part), bar, deflection, Partner(channel_name(str(corner.partner), "bar"), 1.0, -1.0)
+            )
         else:
             builder.force(corner.name(part), element, deflection)
         builder.output(f"{part}_force", corner.station, ("actuator_force", corner.name(part), -1.0))
@@ -104,7 +108,8 @@ def add_suspension(builder: ModelBuilder, corner: Corner, deflection: Form, *, l
 
 
 def note_stiffness(builder: ModelBuilder, corner: Corner, mass: float, *, tyre: bool) -> None:
-    """Time constants of a corner's rates on the mass [kg] that feels them: ``m/c`` of dampers, ``sqrt(m/k)`` of springs."""
+    """Time constants of a corner's rates on the mass [kg] that feels them: ``m/c`` of dampers, ``sqrt(m/k)`` of
+    springs."""
     axle, where = corner.axle, corner.axle_name
     arctan_slope = 2 / math.pi * 201.7
     if axle.friction is not None:
@@ -115,7 +120,9 @@ def note_stiffness(builder: ModelBuilder, corner: Corner, mass: float, *, tyre: 
         steepest = float(max(each.max() for each in slopes))
         builder.resolve(f"{where}.damper", steepest, "N s/m", mass / steepest)
         if axle.damper.friction > 0:
-            builder.resolve(f"{where}.damper.friction", axle.damper.friction, "N", mass / (arctan_slope * axle.damper.friction))
+            builder.resolve(
+                f"{where}.damper.friction", axle.damper.friction, "N", mass / (arctan_slope * axle.damper.friction)
+            )
     stops = axle.spring.stops
     travel = np.linspace(stops.rebound, stops.compression, 101)
     stiffness = {"spring": float(np.abs(axle.spring.rate_at(travel)).max()), "spring.stops.rate": stops.rate}
@@ -152,11 +159,14 @@ def _sprung_wheel(builder: ModelBuilder, body: Any, position: dict[str, Form], c
     _tyre(builder, corner, height)
 
 
-def _massless_rigid_axle(builder: ModelBuilder, _body: Any, position: dict[str, Form], corners: Sequence[Corner]) -> None:
-    """A massless beam whose ends follow the road; the road cannot pull, so each wheel's share of the springs is at least 0.
+def _massless_rigid_axle(
+    builder: ModelBuilder, _body: Any, position: dict[str, Form], corners: Sequence[Corner]
+) -> None:
+    """A massless beam whose ends follow the road; the road cannot pull, so each wheel's share of the springs is at
+    least 0.
 
-    A spring seat at a share ``lever`` of the half track moves with ``(1 + lever)/2`` of its own wheel and ``(1 - lever)/2`` of
-    the other, and loads them in the same shares. So each element acts along both wheels' deflections.
+    A spring seat at a share ``lever`` of the half track moves with ``(1 + lever)/2`` of its own wheel and ``(1 -
+    lever)/2`` of the other, and loads them in the same shares. So each element acts along both wheels' deflections.
     """
     left, right = corners
     near, far = (1 + lever_of(left.axle)) / 2, (1 - lever_of(left.axle)) / 2
@@ -177,11 +187,15 @@ def _massless_rigid_axle(builder: ModelBuilder, _body: Any, position: dict[str, 
                 builder.force(beyond, element, across, Partner(name, far, near), far)
                 loads[other.station].append(beyond)
             loads[corner.station].append(name)
-            builder.output(f"{part}_force", corner.station, *(("actuator_force", each, -1.0) for each in (name, beyond) if each))
+            builder.output(
+                f"{part}_force", corner.station, *(("actuator_force", each, -1.0) for each in (name, beyond) if each)
+            )
         _travel_outputs(builder, corner, own * near + across * far)
     for corner in corners:
         builder.push_only(deflections[corner.station])
-        builder.output("wheel_load", corner.station, *(("actuator_force", name, -1.0) for name in loads[corner.station]))
+        builder.output(
+            "wheel_load", corner.station, *(("actuator_force", name, -1.0) for name in loads[corner.station])
+        )
 
 
 def _sprung_rigid_axle(builder: ModelBuilder, body: Any, position: dict[str, Form], corners: Sequence[Corner]) -> None:
@@ -226,5 +240,7 @@ def lever_of(axle: Axle) -> float:
 def _of_axle(builder: ModelBuilder, corner: Corner, key: str) -> Any:
     value = getattr(corner.axle, key)
     if value is None:
-        raise InputError("is required by models with sprung wheels", key=f"{corner.axle_name}.{key}", source=builder.source)
+        raise InputError(
+            "is required by models with sprung wheels", key=f"{corner.axle_name}.{key}", source=builder.source
+        )
     return value

@@ -43,7 +43,13 @@ def tyre(radius: float, sections: int = _SECTIONS) -> Surface:
     half = WHEEL_WIDTH / 2
     bead = RIM_RADIUS - 0.006
     side = bead + 0.55 * (radius - bead)
-    outer = [(bead, 0.84 * half), (bead + 0.012, 0.92 * half), (side, half), (radius - 0.032, 0.98 * half), (radius - 0.012, 0.9 * half)]
+    outer = [
+        (bead, 0.84 * half),
+        (bead + 0.012, 0.92 * half),
+        (side, half),
+        (radius - 0.032, 0.98 * half),
+        (radius - 0.012, 0.9 * half),
+    ]
     shoulder = [(radius - 0.003, 0.8 * half), (radius, 0.68 * half)]
     tread = [(radius - depth, place + edge) for place in (0.045, 0.0, -0.045) for edge, depth in _groove()]
     left = [*outer, *shoulder]
@@ -160,8 +166,14 @@ def fender(*, length: float, sill: float, top: float, arch: float, slot: float, 
         near, far: sides in y [m].
     """
     slot_top, reach = top - 0.075, float(np.sqrt(arch**2 - sill**2))
-    arc = [(arch * float(np.sin(a)), arch * float(np.cos(a))) for a in np.linspace(np.arcsin(slot / arch), np.arctan2(reach, sill), 40)]
-    corner = [(slot - 0.05 + 0.05 * float(np.sin(a)), slot_top - 0.05 + 0.05 * float(np.cos(a))) for a in np.linspace(0, np.pi / 2, 9)]
+    arc = [
+        (arch * float(np.sin(a)), arch * float(np.cos(a)))
+        for a in np.linspace(np.arcsin(slot / arch), np.arctan2(reach, sill), 40)
+    ]
+    corner = [
+        (slot - 0.05 + 0.05 * float(np.sin(a)), slot_top - 0.05 + 0.05 * float(np.cos(a)))
+        for a in np.linspace(0, np.pi / 2, 9)
+    ]
     end = [(float(x), sill) for x in np.linspace(reach + 1e-4, length / 2, 8)]
     half = [(0.0, slot_top), *corner, *arc, *end]
     outline = np.array([(-x, z) for x, z in half[:0:-1]] + half)
@@ -203,7 +215,13 @@ def rounded_box(length: float, width: float, height: float, rounding: float) -> 
 
 
 def road(
-    height: Callable[[np.ndarray], np.ndarray], spans: Sequence[tuple[float, float]], *, near: float, far: float, top: float, bottom: float
+    height: Callable[[np.ndarray], np.ndarray],
+    spans: Sequence[tuple[float, float]],
+    *,
+    near: float,
+    far: float,
+    top: float,
+    bottom: float,
 ) -> Surface:
     """Strips of road, extruded across: their upper side follows the road height.
 
@@ -218,7 +236,9 @@ def road(
     for start, end in spans:
         x = np.linspace(start, end, max(int((end - start) / 0.05), 1) + 1)
         z = height(x) + top
-        rings = np.array([[(a, near, bottom), (a, far, bottom), (a, far, b), (a, near, b)] for a, b in zip(x, z, strict=True)])
+        rings = np.array(
+            [[(a, near, bottom), (a, far, bottom), (a, far, b), (a, near, b)] for a, b in zip(x, z, strict=True)]
+        )
         strips.append(loft(rings))
     return joined(strips)
 
@@ -231,7 +251,9 @@ def joined(parts: Sequence[trimesh.Trimesh]) -> Surface:
     """Several meshes as one."""
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
     faces = [np.asarray(part.faces) + start for part, start in zip(parts, starts, strict=False)]
-    return Surface(np.concatenate([np.asarray(part.vertices) for part in parts]), np.concatenate(faces).astype(np.int32))
+    return Surface(
+        np.concatenate([np.asarray(part.vertices) for part in parts]), np.concatenate(faces).astype(np.int32)
+    )
 
 
 def surface_of(mesh: trimesh.Trimesh) -> Surface:
@@ -287,7 +309,9 @@ def loft(rings: np.ndarray) -> trimesh.Trimesh:
     count, size, _ = rings.shape
     one, other = np.meshgrid(np.arange(count - 1), np.arange(size), indexing="ij")
     a, b = one * size + other, one * size + (other + 1) % size
-    walls = np.concatenate([np.stack([a, b, b + size], axis=-1).reshape(-1, 3), np.stack([a, b + size, a + size], axis=-1).reshape(-1, 3)])
+    walls = np.concatenate(
+        [np.stack([a, b, b + size], axis=-1).reshape(-1, 3), np.stack([a, b + size, a + size], axis=-1).reshape(-1, 3)]
+    )
     first, last, ends = count * size, count * size + 1, np.arange(size)
     caps = [np.column_stack([np.full(size, first), (ends + 1) % size, ends])]
     base = (count - 1) * size
@@ -299,7 +323,9 @@ def loft(rings: np.ndarray) -> trimesh.Trimesh:
     return mesh
 
 
-def _rounded_rectangle(near: float, far: float, bottom: float, top: float, rounding: float) -> list[tuple[float, float]]:
+def _rounded_rectangle(
+    near: float, far: float, bottom: float, top: float, rounding: float
+) -> list[tuple[float, float]]:
     """(y, z) outline of a rectangle with quarter circles at its corners."""
     radius = min(rounding, 0.49 * (far - near), 0.49 * (top - bottom))
     corners = ((far, top, 0), (near, top, 1), (near, bottom, 2), (far, bottom, 3))
@@ -312,7 +338,9 @@ def _rounded_rectangle(near: float, far: float, bottom: float, top: float, round
     return outline
 
 
-def _inset(ring: list[tuple[float, float, float]], rounding: float, direction: float) -> list[list[tuple[float, float, float]]]:
+def _inset(
+    ring: list[tuple[float, float, float]], rounding: float, direction: float
+) -> list[list[tuple[float, float, float]]]:
     """Rings that close a slab's end with a rounded edge, from the full outline outwards."""
     points = np.array(ring)
     middle, half = (points.max(axis=0) + points.min(axis=0)) / 2, (points.max(axis=0) - points.min(axis=0)) / 2

@@ -1,4 +1,5 @@
-"""What acts on the body itself: lateral and longitudinal acceleration, gravity in roll, the roll rig; its seat channel."""
+"""What acts on the body itself: lateral and longitudinal acceleration, gravity in roll, the roll rig; its seat
+channel."""
 
 from __future__ import annotations
 
@@ -19,13 +20,18 @@ _RIG_FREQUENCY = 2000.0  # rad/s; stiff against every suspension, soft enough fo
 
 
 def add_lateral(
-    builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, corners: Sequence[Corner], position: dict[str, Form]
+    builder: ModelBuilder,
+    vehicle: Vehicle,
+    topology: Topology,
+    load: str,
+    corners: Sequence[Corner],
+    position: dict[str, Form],
 ) -> float | None:
     """Lateral acceleration a_y of the sprung mass (positive in a left turn), and gravity on the rolling body.
 
-    The inertial force ``-m a_y`` at the centre of gravity rolls the body about the ground with ``m a_y h_cg``. The links
-    carry ``V = m_axle a_y z_rc / t`` between body and wheel, up on the left wheel and down on the right, which leaves the
-    body ``m a_y h`` about the roll axis, h = h_cg - z_rc. Returns m h [kg m].
+    The inertial force ``-m a_y`` at the centre of gravity rolls the body about the ground with ``m a_y h_cg``. The
+    links carry ``V = m_axle a_y z_rc / t`` between body and wheel, up on the left wheel and down on the right, which
+    leaves the body ``m a_y h`` about the roll axis, h = h_cg - z_rc. Returns m h [kg m].
     """
     centre = vehicle.cg_height(load)
     if "roll" not in position or centre is None or any(corner.axle.roll_centre_height is None for corner in corners):
@@ -49,7 +55,9 @@ def add_lateral(
     return lever
 
 
-def add_longitudinal(builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, mass: Mass, position: dict[str, Form]) -> None:
+def add_longitudinal(
+    builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, mass: Mass, position: dict[str, Form]
+) -> None:
     """Longitudinal acceleration a_x of the sprung mass (positive forward): pitch moment ``- m a_x h`` over the ground.
 
     The axles transmit it without anti-dive or anti-squat; those belong to a model with wheel paths.
@@ -71,6 +79,8 @@ def add_rig(builder: ModelBuilder, rig: str, position: dict[str, Form], mass: Ma
     if rig != "roll" or "roll" not in position:
         raise InputError(f"no rig '{rig}' for this model; the rig 'roll' needs a model with roll", key="rig")
     stiffness = mass.roll_inertia * _RIG_FREQUENCY**2
-    builder.force("roll_rig", Rig(stiffness=stiffness, damping=1.4 * mass.roll_inertia * _RIG_FREQUENCY), position["roll"])
+    builder.force(
+        "roll_rig", Rig(stiffness=stiffness, damping=1.4 * mass.roll_inertia * _RIG_FREQUENCY), position["roll"]
+    )
     builder.drive("roll_target", "roll_rig", -1.0)
     builder.output("rig_moment", "", ("actuator_force", "roll_rig", 1.0))

@@ -21,15 +21,17 @@ MODELS: dict[str, str] = {
 """Names of the models, and what they are."""
 
 
-def build(vehicle: Vehicle, model: str, load: str = DESIGN_LOAD, axle: str | None = None, rig: str | None = None) -> Plant:
+def build(
+    vehicle: Vehicle, model: str, load: str = DESIGN_LOAD, axle: str | None = None, rig: str | None = None
+) -> Plant:
     """Build a model of a car.
 
     Args:
         model: a key of `MODELS`.
         load: load case of the vehicle.
         axle: ``front`` or ``rear`` for models of one axle; None takes the rear, or the only one there is.
-        rig: ``roll`` puts an oscillation model on a rig that prescribes its roll angle, ``k_and_c`` the handling car on one that
-            holds its body and pushes its wheels.
+        rig: ``roll`` puts an oscillation model on a rig that prescribes its roll angle, ``k_and_c`` the handling car on
+            one that holds its body and pushes its wheels.
 
     Raises:
         InputError: unknown model, load case, axle or rig, or a value that the model needs is missing.
@@ -37,7 +39,14 @@ def build(vehicle: Vehicle, model: str, load: str = DESIGN_LOAD, axle: str | Non
     return Plant.from_spec(*specification(vehicle, model, load, axle, rig))
 
 
-def write(vehicle: Vehicle, model: str, path: str | Path, load: str = DESIGN_LOAD, axle: str | None = None, rig: str | None = None) -> Path:
+def write(
+    vehicle: Vehicle,
+    model: str,
+    path: str | Path,
+    load: str = DESIGN_LOAD,
+    axle: str | None = None,
+    rig: str | None = None,
+) -> Path:
     """Write the MJCF file of the model that `build` makes, complete and with every digit."""
     return write_mjcf(*specification(vehicle, model, load, axle, rig), path)
 

@@ -1,9 +1,11 @@
-"""The car that drives freely (`handling`): a chassis with six freedoms, four wheels on look-up suspensions, tyres with slip.
+"""The car that drives freely (`handling`): a chassis with six freedoms, four wheels on look-up suspensions, tyres with
+slip.
 
-MuJoCo's tree is the free joint of the chassis, per wheel a vertical slide (the travel), for the front wheels a hinge (the steering,
-elastic against the rack), and the spin. Springs, dampers, stops, friction and bars are the same user actuators along the travel as
-in the oscillation models. Everything else (tyres, wheel paths, power train, brakes, air, driver) is carried out by
-`susp_mj.compiled.car` from the numbers that this module writes into the file's custom numeric.
+MuJoCo's tree is the free joint of the chassis, per wheel a vertical slide (the travel), for the front wheels a hinge
+(the steering, elastic against the rack), and the spin. Springs, dampers, stops, friction and bars are the same user
+actuators along the travel as in the oscillation models. Everything else (tyres, wheel paths, power train, brakes, air,
+driver) is carried out by `susp_mj.compiled.car` from the numbers that this module writes into the file's custom
+numeric.
 """
 
 from __future__ import annotations
@@ -50,7 +52,11 @@ _DRIVING = {
     "wind_y": ("wind_y", 0),
 }
 """Actuators of the car's inputs: the quantity that drives each, if any, and how many inner states it has."""
-_RIG_FORCES = {"rig_longitudinal": "longitudinal_force", "rig_lateral": "lateral_force", "rig_aligning": "aligning_moment"}
+_RIG_FORCES = {
+    "rig_longitudinal": "longitudinal_force",
+    "rig_lateral": "lateral_force",
+    "rig_aligning": "aligning_moment",
+}
 _RIG_FREQUENCY = 300.0  # rad/s of the body on its servo: far above every suspension, resolved by a step of 1 ms
 _CONTROL_GAIN, _CONTROL_INTEGRAL = 1.5, 0.5  # 1/s, 1/s²: force of the speed controller per car mass and speed error
 _STALL_SPEED = 220.0  # rad/s at which the converter holds the engine's largest torque with the car at rest
@@ -62,7 +68,8 @@ _SOFTEST = 0.5  # largest static deflection of a tyre, as a share of its radius
 
 @dataclass(frozen=True)
 class _Wheel:
-    """A wheel of the car being built: its corner, its tyre on the road, and where things stand in the design position."""
+    """A wheel of the car being built: its corner, its tyre on the road, and where things stand in the design
+    position."""
 
     corner: Corner
     tyre: Any
@@ -87,9 +94,16 @@ def handling_specification(vehicle: Vehicle, load: str, rig: str | None) -> tupl
         raise InputError(f"no rig '{rig}' for model {HANDLING}; allowed is {K_AND_C}", key="rig")
     vehicle.check_handling()
     builder = ModelBuilder(f"{vehicle.name}_{HANDLING}", vehicle.source)
-    builder.spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER  # no joint has any
+    builder.spec.option.disableflags |= (
+        mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
+    )  # no joint has any
     case = vehicle.load(load)
-    assert case.cg is not None and case.sprung_mass is not None and case.inertia is not None and vehicle.wheelbase is not None
+    assert (
+        case.cg is not None
+        and case.sprung_mass is not None
+        and case.inertia is not None
+        and vehicle.wheelbase is not None
+    )
     wheels = [_wheel(builder, vehicle, station, case.cg) for station in CORNERS]
     share = -case.cg[0] / vehicle.wheelbase
     hubs = [(wheels[i].design_height + wheels[i + 1].design_height) / 2 for i in (0, 2)]
@@ -162,7 +176,8 @@ def _wheel(builder: ModelBuilder, vehicle: Vehicle, station: str, cg: tuple[floa
     if carried / tyre.vertical_stiffness > _SOFTEST * tyre.radius:
         raise InputError(
             f"{tyre.vertical_stiffness:g} N/m is not allowed; {carried:.0f} N would press the tyre in by "
-            f"{1000 * carried / tyre.vertical_stiffness:.0f} mm, more than half its radius of {1000 * tyre.radius:.0f} mm",
+            f"{1000 * carried / tyre.vertical_stiffness:.0f} mm, more than half its radius of "
+            f"{1000 * tyre.radius:.0f} mm",
             key=f"{axle_name}.handling_tyre.vertical_stiffness",
             source=vehicle.source,
         )
@@ -187,7 +202,9 @@ def _add_wheel(builder: ModelBuilder, vehicle: Vehicle, chassis: Any, wheel: _Wh
     rolling = holder.add_body(name=corner.name("wheel"), mass=_WHEEL_MASS_SHARE * mass, **inertia)
     builder.joint(rolling, corner.name("spin"), "hinge", [0, 1, 0])
     upright_quat = [math.sqrt(0.5), math.sqrt(0.5), 0, 0]
-    builder.draw(rolling, mujoco.mjtGeom.mjGEOM_CYLINDER, [wheel.tyre.radius, 0.11, 0], [0.1, 0.1, 0.1, 1], quat=upright_quat)
+    builder.draw(
+        rolling, mujoco.mjtGeom.mjGEOM_CYLINDER, [wheel.tyre.radius, 0.11, 0], [0.1, 0.1, 0.1, 1], quat=upright_quat
+    )
 
 
 def _add_forces(builder: ModelBuilder, vehicle: Vehicle, wheel: _Wheel) -> None:
@@ -196,7 +213,11 @@ def _add_forces(builder: ModelBuilder, vehicle: Vehicle, wheel: _Wheel) -> None:
     add_suspension(builder, corner, Form({corner.name("travel"): 1.0}))
     mass = corner.axle.unsprung_mass or 0.0
     note_stiffness(builder, corner, mass, tyre=False)
-    key, stiffness, damping = f"{corner.axle_name}.handling_tyre", wheel.tyre.vertical_stiffness, wheel.tyre.vertical_damping
+    key, stiffness, damping = (
+        f"{corner.axle_name}.handling_tyre",
+        wheel.tyre.vertical_stiffness,
+        wheel.tyre.vertical_damping,
+    )
     builder.resolve(f"{key}.vertical_stiffness", stiffness, "N/m", math.sqrt(mass / stiffness), power=2.0)
     if damping > 0:
         builder.resolve(f"{key}.vertical_damping", damping, "N s/m", mass / damping)
@@ -245,7 +266,11 @@ def _head(vehicle: Vehicle, mass: float, place: tuple[float, float, float]) -> d
     steering, train, air = vehicle.steering, vehicle.powertrain, vehicle.aerodynamics
     assert steering is not None and train is not None and air is not None and vehicle.wheelbase is not None
     if len(train.gears) > MOST_GEARS:
-        raise InputError(f"{len(train.gears)} gears are not allowed; at most {MOST_GEARS}", key="powertrain.gears", source=vehicle.source)
+        raise InputError(
+            f"{len(train.gears)} gears are not allowed; at most {MOST_GEARS}",
+            key="powertrain.gears",
+            source=vehicle.source,
+        )
     largest = max(train.full_torque)
     return {
         "steering_ratio": steering.ratio,
@@ -293,13 +318,20 @@ def _rig_servo(mass: float, inertia: Sequence[float], rig: str | None) -> dict[s
 
 
 def _block(
-    model: mujoco.MjModel, vehicle: Vehicle, wheels: Sequence[_Wheel], head: Mapping[str, float], controls: Sequence[str], rig: str | None
+    model: mujoco.MjModel,
+    vehicle: Vehicle,
+    wheels: Sequence[_Wheel],
+    head: Mapping[str, float],
+    controls: Sequence[str],
+    rig: str | None,
 ) -> np.ndarray:
     """Everything that the compiled car reads, with the places of joints and actuators in the compiled model."""
     train = vehicle.powertrain
     assert train is not None
     values = {**head, "freedoms": float(model.nv)}
-    values |= {name: float(model.actuator(name).id) if name in controls else -1.0 for name in (*CONTROLS, *RIG_CONTROLS)}
+    values |= {
+        name: float(model.actuator(name).id) if name in controls else -1.0 for name in (*CONTROLS, *RIG_CONTROLS)
+    }
     places: list[dict[str, float]] = []
     tables = [
         ("full_torque", -1, table(train.speed, train.full_torque, smooth=False, count=65)),
@@ -312,7 +344,13 @@ def _block(
 
 
 def _wheel_numbers(model: mujoco.MjModel, vehicle: Vehicle, wheel: _Wheel, rig: str | None) -> dict[str, float]:
-    corner, tyre, steering, train, brakes = wheel.corner, wheel.tyre, vehicle.steering, vehicle.powertrain, vehicle.brakes
+    corner, tyre, steering, train, brakes = (
+        wheel.corner,
+        wheel.tyre,
+        vehicle.steering,
+        vehicle.powertrain,
+        vehicle.brakes,
+    )
     assert steering is not None and train is not None and brakes is not None and vehicle.wheelbase is not None
     case_z = -float(model.body(corner.name("carrier")).pos[2])
     travel, spin = model.joint(corner.name("travel")), model.joint(corner.name("spin"))
@@ -354,7 +392,9 @@ def _wheel_tables(wheel: _Wheel) -> dict[str, np.ndarray]:
     assert kinematics is not None and compliance is not None
     tables = {
         "path": table(kinematics.travel, kinematics.path("lateral"), kinematics.path("longitudinal"), smooth=True),
-        "angles": _angle_tables(kinematics.travel, kinematics.steer, kinematics.angles("toe"), kinematics.angles("camber")),
+        "angles": _angle_tables(
+            kinematics.travel, kinematics.steer, kinematics.angles("toe"), kinematics.angles("camber")
+        ),
         "tyre_parameters": np.array(wheel.tyre.parameters()),
     }
     if kinematics.longitudinal_centre:
@@ -380,7 +420,9 @@ def _angle_tables(travel: Sequence[float], steer: Sequence[float], toe: np.ndarr
     even, spacing = np.linspace(steer[0], steer[-1], _STEER_ROWS, retstep=True)
     ends = "not-a-knot" if len(steer) > 2 else "natural"
     toes, cambers = (CubicSpline(steer, angles, axis=1, bc_type=ends)(even) for angles in (toe, camber))
-    return table_of_tables(even[0], spacing, [table(travel, toes[:, j], cambers[:, j], smooth=True) for j in range(_STEER_ROWS)])
+    return table_of_tables(
+        even[0], spacing, [table(travel, toes[:, j], cambers[:, j], smooth=True) for j in range(_STEER_ROWS)]
+    )
 
 
 __all__ = ["CAR_NUMERIC", "HANDLING", "K_AND_C", "handling_specification"]

@@ -1,7 +1,7 @@
 """Oscillation models: vertical dynamics of a body on its wheels (thesis section 4.3.1 and appendix 4).
 
-One table of topologies and one builder: a body with some of heave, pitch and roll, on wheels that either follow the road
-without mass or have mass and stand on tyre springs, guided independently or by a rigid axle.
+One table of topologies and one builder: a body with some of heave, pitch and roll, on wheels that either follow the
+road without mass or have mass and stand on tyre springs, guided independently or by a rigid axle.
 """
 
 from __future__ import annotations
@@ -20,7 +20,11 @@ from .axles import BODY_HEIGHT, Corner, add_axle, note_stiffness
 from .body_forces import add_lateral, add_longitudinal, add_rig, add_seat
 from .parts import POINT_MASS, Form, ModelBuilder
 
-_FREEDOMS = {"heave": ("slide", [0.0, 0.0, 1.0]), "pitch": ("hinge", [0.0, 1.0, 0.0]), "roll": ("hinge", [1.0, 0.0, 0.0])}
+_FREEDOMS = {
+    "heave": ("slide", [0.0, 0.0, 1.0]),
+    "pitch": ("hinge", [0.0, 1.0, 0.0]),
+    "roll": ("hinge", [1.0, 0.0, 0.0]),
+}
 
 
 @dataclass(frozen=True)
@@ -45,17 +49,35 @@ class Topology:
 
 
 OSCILLATION: dict[str, Topology] = {
-    "quarter_1dof": Topology("OM1: body heave; the massless wheel follows the road", ("heave",), 1, 1, sprung_wheels=False),
-    "axle_2dof": Topology(
-        "OM2: body heave and roll on a massless rigid axle", ("heave", "roll"), 1, 2, sprung_wheels=False, rigid_axle=True
+    "quarter_1dof": Topology(
+        "OM1: body heave; the massless wheel follows the road", ("heave",), 1, 1, sprung_wheels=False
     ),
-    "pitch_2dof": Topology("OM3: body heave and pitch, one side; massless wheels", ("heave", "pitch"), 2, 1, sprung_wheels=False),
-    "full_3dof": Topology("OM4: body heave, pitch and roll; massless wheels", ("heave", "pitch", "roll"), 2, 2, sprung_wheels=False),
+    "axle_2dof": Topology(
+        "OM2: body heave and roll on a massless rigid axle",
+        ("heave", "roll"),
+        1,
+        2,
+        sprung_wheels=False,
+        rigid_axle=True,
+    ),
+    "pitch_2dof": Topology(
+        "OM3: body heave and pitch, one side; massless wheels", ("heave", "pitch"), 2, 1, sprung_wheels=False
+    ),
+    "full_3dof": Topology(
+        "OM4: body heave, pitch and roll; massless wheels", ("heave", "pitch", "roll"), 2, 2, sprung_wheels=False
+    ),
     "quarter_2dof": Topology("OM5: body heave, wheel mass on a tyre spring", ("heave",), 1, 1, sprung_wheels=True),
     "axle_4dof": Topology(
-        "OM6: body heave and roll on a rigid axle with mass", ("heave", "roll"), 1, 2, sprung_wheels=True, rigid_axle=True
+        "OM6: body heave and roll on a rigid axle with mass",
+        ("heave", "roll"),
+        1,
+        2,
+        sprung_wheels=True,
+        rigid_axle=True,
     ),
-    "full_7dof": Topology("OM7: body heave, pitch and roll, four wheel masses", ("heave", "pitch", "roll"), 2, 2, sprung_wheels=True),
+    "full_7dof": Topology(
+        "OM7: body heave, pitch and roll, four wheel masses", ("heave", "pitch", "roll"), 2, 2, sprung_wheels=True
+    ),
 }
 
 
@@ -77,7 +99,11 @@ def oscillation_specification(
     for group in (corners[i : i + topology.sides] for i in range(0, len(corners), topology.sides)):
         add_axle(builder, topology, body, position, group)
     for corner in corners:
-        felt = (corner.axle.unsprung_mass or 0.0) if topology.sprung_wheels else vehicle.corner_mass(corner.axle_name, load)
+        felt = (
+            (corner.axle.unsprung_mass or 0.0)
+            if topology.sprung_wheels
+            else vehicle.corner_mass(corner.axle_name, load)
+        )
         note_stiffness(builder, corner, felt, tyre=topology.sprung_wheels)
     roll_lever = add_lateral(builder, vehicle, topology, load, corners, position)
     add_longitudinal(builder, vehicle, topology, load, mass, position)
@@ -91,7 +117,9 @@ def oscillation_specification(
         load=load,
         facts={
             "sprung_mass": mass.mass,
-            "unsprung_mass": sum(corner.axle.unsprung_mass or 0.0 for corner in corners) if topology.sprung_wheels else 0.0,
+            "unsprung_mass": sum(corner.axle.unsprung_mass or 0.0 for corner in corners)
+            if topology.sprung_wheels
+            else 0.0,
             "cg_x": mass.x,
             "cg_y": mass.y,
             **({"roll_lever": roll_lever} if roll_lever is not None else {}),
@@ -118,7 +146,9 @@ class Mass:
             return cls(vehicle.corner_mass(axles[0], load), 0.0, 0.0, 1.0, 1.0)
         if case.sprung_mass is None or case.inertia is None or case.cg is None:
             raise InputError(
-                f"model {model} needs sprung_mass, cg and inertia, not a corner's mass only", key=f"loads.{load}", source=vehicle.source
+                f"model {model} needs sprung_mass, cg and inertia, not a corner's mass only",
+                key=f"loads.{load}",
+                source=vehicle.source,
             )
         if topology.axles == 1:
             mass = 2 * vehicle.corner_mass(axles[0], load)
@@ -133,9 +163,9 @@ class Mass:
 def _body(builder: ModelBuilder, topology: Topology, mass: Mass) -> tuple[Any, dict[str, Form]]:
     """The sprung body at its centre of gravity, with its freedoms as forms.
 
-    Its mass heaves; its moments of inertia sit on a child that pitches and rolls. Wheels are children of the part that only
-    heaves, so they move vertically and every height stays the linear form that defines these models, at any angle. With
-    Jzz = Jyy pitch and roll do not couple either.
+    Its mass heaves; its moments of inertia sit on a child that pitches and rolls. Wheels are children of the part that
+    only heaves, so they move vertically and every height stays the linear form that defines these models, at any angle.
+    With Jzz = Jyy pitch and roll do not couple either.
     """
     place = {**POINT_MASS, "mass": mass.mass}
     body = builder.spec.worldbody.add_body(name="body", pos=[mass.x, mass.y, BODY_HEIGHT], **place)
@@ -146,19 +176,25 @@ def _body(builder: ModelBuilder, topology: Topology, mass: Mass) -> tuple[Any, d
         if "pitch" not in topology.freedoms:
             inertia = [mass.roll_inertia] * 3
         shell = body.add_body(name="attitude", **{**POINT_MASS, "inertia": inertia, "mass": 1e-9 * mass.mass})
-        position |= {name: builder.joint(shell, name, *_FREEDOMS[name]) for name in topology.freedoms if name != "heave"}
+        position |= {
+            name: builder.joint(shell, name, *_FREEDOMS[name]) for name in topology.freedoms if name != "heave"
+        }
     length = 2.4 if topology.axles == 2 else 0.35
     width = 0.6 if topology.sides == 2 else 0.25
     builder.draw(shell, mujoco.mjtGeom.mjGEOM_BOX, [length / 2 + 0.3, width, 0.1], [0.16, 0.36, 0.6, 1])
     for name, quantity in (("heave", "body"), ("pitch", "pitch"), ("roll", "roll")):
         if name in position:
-            words = ("displacement", "velocity", "acceleration") if name == "heave" else ("angle", "rate", "acceleration")
+            words = (
+                ("displacement", "velocity", "acceleration") if name == "heave" else ("angle", "rate", "acceleration")
+            )
             for source, word in zip(("qpos", "qvel", "qacc"), words, strict=True):
                 builder.output(f"{quantity}_{word}", "", (source, name, 1.0))
     return body, position
 
 
-def _corners(builder: ModelBuilder, vehicle: Vehicle, topology: Topology, axles: Sequence[str], mass: Mass) -> list[Corner]:
+def _corners(
+    builder: ModelBuilder, vehicle: Vehicle, topology: Topology, axles: Sequence[str], mass: Mass
+) -> list[Corner]:
     """The model's wheels, axle by axle, left before right."""
     corners = []
     for axle_name in axles:

@@ -1,8 +1,8 @@
 """Parts that every model is built from: linear forms, force elements along them, and the record of what they mean.
 
-Joint coordinates are 0 in the design position, so every deflection and height is a weighted sum of joint coordinates and
-road heights: a `Form`. An element acts along a form as a user actuator, on the joint if the form is one joint, else on a
-fixed tendon; the road's share reaches it as an input. Parts are named after their corner: ``fl_spring``.
+Joint coordinates are 0 in the design position, so every deflection and height is a weighted sum of joint coordinates
+and road heights: a `Form`. An element acts along a form as a user actuator, on the joint if the form is one joint, else
+on a fixed tendon; the road's share reaches it as an input. Parts are named after their corner: ``fl_spring``.
 """
 
 from __future__ import annotations
@@ -24,7 +24,12 @@ from susp_mj.simulation import STEP
 
 from ..vehicle import Axle
 
-POINT_MASS: dict[str, Any] = {"ipos": [0, 0, 0], "iquat": [1, 0, 0, 0], "inertia": [1e-6, 1e-6, 1e-6], "explicitinertial": True}
+POINT_MASS: dict[str, Any] = {
+    "ipos": [0, 0, 0],
+    "iquat": [1, 0, 0, 0],
+    "inertia": [1e-6, 1e-6, 1e-6],
+    "explicitinertial": True,
+}
 """A body that only translates within the model: its own moments of inertia play no part."""
 _NO_LIMIT = 1e12
 Term = tuple[str, str, float]
@@ -54,7 +59,10 @@ class Form:
     def terms(self, joint_source: str, road_source: str) -> list[Term]:
         """The form as terms of an output: positions, or rates."""
         joints = [(joint_source, joint, weight) for joint, weight in self.joints.items()]
-        return [*joints, *((road_source, channel_name(station, "road_height"), weight) for station, weight in self.roads.items())]
+        return [
+            *joints,
+            *((road_source, channel_name(station, "road_height"), weight) for station, weight in self.roads.items()),
+        ]
 
 
 def _sum(a: dict[str, float], b: dict[str, float]) -> dict[str, float]:
@@ -121,7 +129,9 @@ class ModelBuilder:
         self._entries.setdefault(("road_height", station), [])
         return Form({}, {station: 1.0})
 
-    def force(self, name: str, element: Element, form: Form, partner: Partner | None = None, factor: float = 1.0) -> None:
+    def force(
+        self, name: str, element: Element, form: Form, partner: Partner | None = None, factor: float = 1.0
+    ) -> None:
         """Let an element act along a form: a positive force opposes the form's growth.
 
         Args:
@@ -148,7 +158,8 @@ class ModelBuilder:
         self._entries.setdefault((quantity, station), []).append((actuator, factor))
 
     def control(self, name: str, joint: str, states: int = 0) -> None:
-        """An actuator without force of its own: its `ctrl` is an input of the car, its `act` are inner states of the car."""
+        """An actuator without force of its own: its `ctrl` is an input of the car, its `act` are inner states of the
+        car."""
         actuator = self.spec.add_actuator(name=name, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         actuator.gainprm[0] = 0.0
         if states:
@@ -226,7 +237,11 @@ class ModelBuilder:
         for index, (_, actuator, acting) in enumerate(self._actuators):
             if acting is not None:
                 partner = acting.partner
-                place = [0.0, 1.0, 0.0] if partner is None else [float(order.index(partner.name) - index), partner.own, partner.other]
+                place = (
+                    [0.0, 1.0, 0.0]
+                    if partner is None
+                    else [float(order.index(partner.name) - index), partner.own, partner.other]
+                )
                 actuator.userdata = [ACTUATOR_MARK, float(acting.law), *place, acting.factor, *acting.parameters]
                 longest = max(longest, len(acting.parameters))
         self.spec.nuser_actuator = ACTUATOR_HEADER + longest

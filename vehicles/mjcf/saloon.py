@@ -1,4 +1,5 @@
-"""Shapes for pictures of a closed car: a four-door saloon, one curved shell cut into paint, glass, lamps and trim; no physics uses them.
+"""Shapes for pictures of a closed car: a four-door saloon, one curved shell cut into paint, glass, lamps and trim; no
+physics uses them.
 
 Lengths are in m; x points forward from the front axle, y to the left, z up from the road in the design position.
 """
@@ -62,7 +63,8 @@ class Saloon:
 def saloon(shape: Saloon) -> dict[str, Surface]:
     """Surfaces of a saloon by material.
 
-    ``paint``, ``glass``, ``trim``, ``gloss``, ``chrome``, ``grille``, ``lamp``, ``lamp_glass``, ``tail``, ``gap``, ``plate``, ``liner``.
+    ``paint``, ``glass``, ``trim``, ``gloss``, ``chrome``, ``grille``, ``lamp``, ``lamp_glass``, ``tail``, ``gap``,
+    ``plate``, ``liner``.
     """
     shell = _shell(shape)
     parts: dict[str, list[Surface]] = {}
@@ -94,7 +96,8 @@ def saloon(shape: Saloon) -> dict[str, Surface]:
 
 @dataclass(frozen=True)
 class _Shell:
-    """Left half of a surface: vertices (n, 3), faces (m, 3), normals (n, 3), and the number of the line a vertex lies on (n,)."""
+    """Left half of a surface: vertices (n, 3), faces (m, 3), normals (n, 3), and the number of the line a vertex lies
+    on (n,)."""
 
     vertices: np.ndarray
     faces: np.ndarray
@@ -133,7 +136,9 @@ def _shell(shape: Saloon) -> _Shell:
     count, around = shape.fine
     turn = np.linspace(0.0, np.pi / 2, 14)
     ends = _CAP * (1 - np.cos(turn[::-1]))
-    x = np.concatenate([shape.tail + ends, np.linspace(shape.tail + _CAP, shape.nose - _CAP, count)[1:-1], shape.nose - ends])
+    x = np.concatenate(
+        [shape.tail + ends, np.linspace(shape.tail + _CAP, shape.nose - _CAP, count)[1:-1], shape.nose - ends]
+    )
     x = np.sort(np.unique(np.round(x, 6)))
     lines = _lines(shape, x)
     ring = _smooth(lines, around)
@@ -165,17 +170,48 @@ def _lines(shape: Saloon, x: np.ndarray) -> np.ndarray:
     """(n, k, 2) points (y, z) that the section at each x is drawn around, from the underside to the roof."""
     at, behind, before, rear, wide = shape.x, shape.behind, shape.before, -shape.wheelbase, shape.half_width
     boot = [(shape.tail, 0.95), (rear - 0.80, 1.005), (rear - 0.42, 1.035), (rear - 0.30, 1.05)]
-    roof = [(before(0.02), 1.185), (before(0.36), 1.33), (at(0.77), 1.405), (at(0.66), 1.445), (at(0.55), 1.455), (at(0.46), 1.435)]
-    screen = [(behind(1.27), 1.385), (behind(1.08), 1.30), (behind(0.80), 1.135), (behind(0.50), 0.965), (behind(0.36), 0.945)]
+    roof = [
+        (before(0.02), 1.185),
+        (before(0.36), 1.33),
+        (at(0.77), 1.405),
+        (at(0.66), 1.445),
+        (at(0.55), 1.455),
+        (at(0.46), 1.435),
+    ]
+    screen = [
+        (behind(1.27), 1.385),
+        (behind(1.08), 1.30),
+        (behind(0.80), 1.135),
+        (behind(0.50), 0.965),
+        (behind(0.36), 0.945),
+    ]
     bonnet = [(0.0, 0.90), (0.40, 0.83), (0.64, 0.765), (shape.nose, 0.69)]
     top = _curve([*boot, *roof, *screen, *bonnet], x, 0.035)
     waist = [(shape.tail, 0.93), (rear - 0.5, 0.965), (rear, 0.95), (at(0.6), 0.925), (behind(0.7), 0.90), (0.0, 0.845)]
     belt = _curve([*waist, (0.5, 0.745), (shape.nose, 0.64)], x, 0.08)
-    low = _curve([(shape.tail, 0.30), (rear - 0.6, 0.21), (rear, 0.175), (0.0, 0.175), (0.5, 0.19), (shape.nose, 0.24)], x)
-    slim = [(shape.tail, 0.82), (rear - 0.7, 0.92), (rear - 0.2, 0.985), (before(0.5), 1.0), (behind(0.8), 1.0), (0.0, 0.985)]
+    low = _curve(
+        [(shape.tail, 0.30), (rear - 0.6, 0.21), (rear, 0.175), (0.0, 0.175), (0.5, 0.19), (shape.nose, 0.24)], x
+    )
+    slim = [
+        (shape.tail, 0.82),
+        (rear - 0.7, 0.92),
+        (rear - 0.2, 0.985),
+        (before(0.5), 1.0),
+        (behind(0.8), 1.0),
+        (0.0, 0.985),
+    ]
     half = wide * _curve([*slim, (0.45, 0.92), (shape.nose, 0.78)], x, 0.08)
-    glass = [(before(0.02), 0.45), (before(0.36), 0.85), (at(0.72), 1.0), (behind(1.40), 1.0), (behind(1.08), 0.80), (behind(0.8), 0.42)]
-    cabin = _curve([(rear - 0.45, 0.0), (rear - 0.32, 0.02), *glass, (behind(0.52), 0.03), (behind(0.40), 0.0)], x, 0.03)
+    glass = [
+        (before(0.02), 0.45),
+        (before(0.36), 0.85),
+        (at(0.72), 1.0),
+        (behind(1.40), 1.0),
+        (behind(1.08), 0.80),
+        (behind(0.8), 0.42),
+    ]
+    cabin = _curve(
+        [(rear - 0.45, 0.0), (rear - 0.32, 0.02), *glass, (behind(0.52), 0.03), (behind(0.40), 0.0)], x, 0.03
+    )
     cabin = np.where((x < behind(0.36)) & (x > rear - 0.5), cabin, 0.0)
     rail_y = half * 0.86 + cabin * (0.655 * wide - half * 0.86)
     rail_z = top - 0.062 * cabin - (1 - cabin) * 0.03
@@ -216,7 +252,10 @@ def _smooth(lines: np.ndarray, around: int) -> np.ndarray:
 
 def _arch(shape: Saloon, shell: _Shell, axle: float) -> np.ndarray:
     """Positive inside a wheel arch."""
-    away = np.hypot(shell.x - axle, np.maximum(shell.z - shape.wheel_radius, -0.4) * np.where(shell.z < shape.wheel_radius, 0.35, 1.0))
+    away = np.hypot(
+        shell.x - axle,
+        np.maximum(shell.z - shape.wheel_radius, -0.4) * np.where(shell.z < shape.wheel_radius, 0.35, 1.0),
+    )
     return np.minimum(shape.arch - away, shell.y - 0.42 * shape.half_width)
 
 
@@ -239,11 +278,15 @@ def _windows(shape: Saloon) -> list[_Opening]:
 
     def windscreen(s: _Shell) -> np.ndarray:
         bow = 0.10 * (s.y / 0.6) ** 2
-        return _rounded(0.05, 0.10 * (s.line - _TOP), behind(0.50) - bow - s.x, s.x - behind(1.26) + 0.5 * bow, s.z - 0.9)
+        return _rounded(
+            0.05, 0.10 * (s.line - _TOP), behind(0.50) - bow - s.x, s.x - behind(1.26) + 0.5 * bow, s.z - 0.9
+        )
 
     def backlight(s: _Shell) -> np.ndarray:
         bow = 0.06 * (s.y / 0.6) ** 2
-        return _rounded(0.05, 0.10 * (s.line - _TOP), before(0.40) - bow - s.x, s.x + shape.wheelbase + 0.28 - bow, s.z - 0.9)
+        return _rounded(
+            0.05, 0.10 * (s.line - _TOP), before(0.40) - bow - s.x, s.x + shape.wheelbase + 0.28 - bow, s.z - 0.9
+        )
 
     def side_window(s: _Shell) -> np.ndarray:
         ahead = (behind(0.60) - s.x) * 0.54 - (s.z - 0.93) * 0.84 + 0.03
@@ -272,7 +315,9 @@ def _faces(shape: Saloon) -> list[_Opening]:
         return _rounded(0.03, s.z - 0.565 - up, 0.665 + up - s.z, s.y - 0.50 * wide, s.x - 0.36)
 
     def bulb(s: _Shell) -> np.ndarray:
-        away = [0.036 - np.hypot(s.y - share * wide, s.z - 0.615 - 0.10 * (share - 0.45) * wide) for share in (0.62, 0.75)]
+        away = [
+            0.036 - np.hypot(s.y - share * wide, s.z - 0.615 - 0.10 * (share - 0.45) * wide) for share in (0.62, 0.75)
+        ]
         return np.minimum(np.maximum(*away), s.x - 0.4)
 
     def grille(s: _Shell) -> np.ndarray:
@@ -308,13 +353,23 @@ def _joints(shape: Saloon) -> list[tuple[_Field, _Field]]:
     def lids(s: _Shell) -> np.ndarray:
         return s.line - 10.6
 
-    edge = rear + float(np.sqrt((shape.arch + 0.05) ** 2 - (split - high) ** 2)) if shape.arch + 0.05 > split - high else rear
+    edge = (
+        rear + float(np.sqrt((shape.arch + 0.05) ** 2 - (split - high) ** 2))
+        if shape.arch + 0.05 > split - high
+        else rear
+    )
     return [
         (lambda s: s.x - shape.behind(0.62) - 0.12 * (s.z - 0.6), side),
         (lambda s: s.x - pillar, side),
         (lambda s: s.x - edge - 0.30 * (s.z - split), lambda s: np.minimum(side(s), s.z - split)),
-        (lambda s: np.hypot(s.x - rear, s.z - high) - shape.arch - 0.05, lambda s: np.minimum.reduce([side(s), s.x - rear, split - s.z])),
-        (lambda s: s.z - 0.30, lambda s: np.minimum.reduce([shape.behind(0.58) - s.x, s.x - rear - shape.arch - 0.05, 6.0 - s.line])),
+        (
+            lambda s: np.hypot(s.x - rear, s.z - high) - shape.arch - 0.05,
+            lambda s: np.minimum.reduce([side(s), s.x - rear, split - s.z]),
+        ),
+        (
+            lambda s: s.z - 0.30,
+            lambda s: np.minimum.reduce([shape.behind(0.58) - s.x, s.x - rear - shape.arch - 0.05, 6.0 - s.line]),
+        ),
         (lambda s: 0.07 * (s.line - 10.7), lambda s: np.minimum(s.x - shape.behind(0.52), 0.52 - s.x)),
         (lambda s: s.x - 0.54 + 0.22 * (s.y / 0.8) ** 2, lambda s: np.minimum(lids(s), s.x)),
         (lambda s: 0.07 * (s.line - 10.7), lambda s: np.minimum(rear - 0.42 - s.x, s.x - rear + 0.93)),
@@ -322,7 +377,8 @@ def _joints(shape: Saloon) -> list[tuple[_Field, _Field]]:
 
 
 def _band(shell: _Shell, away: _Field, within: _Field) -> tuple[_Shell, _Shell]:
-    """What lies within 5 mm of the zero line of `away`, and the rest: edge by edge, for the band is narrower than a face."""
+    """What lies within 5 mm of the zero line of `away`, and the rest: edge by edge, for the band is narrower than a
+    face."""
     beyond, before = _split(shell, away(shell) - 0.005)
     band, before = _split(before, away(before) + 0.005)
     chosen, other = _split(band, within(band))
@@ -363,13 +419,18 @@ def _blob(half: tuple[float, float, float], centre: tuple[float, float, float], 
     def power(value: np.ndarray) -> np.ndarray:
         return np.sign(value) * np.abs(value) ** exponent
 
-    unit = np.stack([power(np.cos(up)) * power(np.cos(around)), power(np.cos(up)) * power(np.sin(around)), power(np.sin(up))], axis=-1)
+    unit = np.stack(
+        [power(np.cos(up)) * power(np.cos(around)), power(np.cos(up)) * power(np.sin(around)), power(np.sin(up))],
+        axis=-1,
+    )
     vertices = (unit * half + centre).reshape(-1, 3)
     one, other = np.meshgrid(np.arange(24), np.arange(12), indexing="ij")
     a = one * 13 + other
     faces = np.stack([a, a + 13, a + 14, a, a + 14, a + 1], axis=-1).reshape(-1, 3)
     normals = unit.reshape(-1, 3) / np.array(half)
-    return Surface(vertices, faces.astype(np.int32), normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9))
+    return Surface(
+        vertices, faces.astype(np.int32), normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+    )
 
 
 def _wheelhouse(shape: Saloon, axle: float, side: float) -> Surface:
@@ -406,7 +467,9 @@ def _split(shell: _Shell, chosen: np.ndarray) -> tuple[_Shell, _Shell]:
 
     def extended(values: np.ndarray) -> np.ndarray:
         column = values.reshape(len(values), -1)
-        return np.concatenate([column, (1 - share) * column[start] + share * column[end]]).reshape(-1, *values.shape[1:])
+        return np.concatenate([column, (1 - share) * column[start] + share * column[end]]).reshape(
+            -1, *values.shape[1:]
+        )
 
     normals = extended(shell.normals)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
@@ -442,7 +505,12 @@ def _mirrored(surface: Surface) -> Surface:
     assert surface.normals is not None
     flip = np.array([1.0, -1.0, 1.0])
     return _joined(
-        [surface, replace(surface, vertices=surface.vertices * flip, faces=surface.faces[:, ::-1], normals=surface.normals * flip)]
+        [
+            surface,
+            replace(
+                surface, vertices=surface.vertices * flip, faces=surface.faces[:, ::-1], normals=surface.normals * flip
+            ),
+        ]
     )
 
 
@@ -451,4 +519,8 @@ def _joined(parts: Sequence[Surface]) -> Surface:
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
     normals = [part.normals for part in parts if part.normals is not None]
     faces = [part.faces + start for part, start in zip(parts, starts, strict=False)]
-    return Surface(np.concatenate([part.vertices for part in parts]), np.concatenate(faces).astype(np.int32), np.concatenate(normals))
+    return Surface(
+        np.concatenate([part.vertices for part in parts]),
+        np.concatenate(faces).astype(np.int32),
+        np.concatenate(normals),
+    )

@@ -32,7 +32,9 @@ def hull(outline: np.ndarray, *, cockpit: tuple[float, float] | None = None, flo
         near_end = min(station - x[0], x[-1] - station) / _END
         shrink = float(np.sqrt(max(1 - (1 - min(near_end, 1.0)) ** 2, 0.09)))
         middle = np.array([0.0, (bottom + top) / 2])
-        rings.append(np.column_stack([np.full(len(ring), station), middle + (ring - middle) * [0.55 + 0.45 * shrink, shrink]]))
+        rings.append(
+            np.column_stack([np.full(len(ring), station), middle + (ring - middle) * [0.55 + 0.45 * shrink, shrink]])
+        )
     return surface_of(loft(np.array(rings)))
 
 
@@ -44,7 +46,13 @@ def lining(outline: np.ndarray, cockpit: tuple[float, float], floor: float = 0.3
         if not cockpit[0] + 0.1 < station < cockpit[1] - 0.1:
             continue
         wall, edge = width - _RIM - 0.006, top - 0.03
-        right = [(0.0, floor + 0.012), (wall - 0.012, floor + 0.012), (wall, edge), (wall + 0.004, edge), (wall - 0.004, floor + 0.004)]
+        right = [
+            (0.0, floor + 0.012),
+            (wall - 0.012, floor + 0.012),
+            (wall, edge),
+            (wall + 0.004, edge),
+            (wall - 0.004, floor + 0.004),
+        ]
         ring = [*right, (0.0, floor + 0.004), *[(-y, z) for y, z in right[:0:-1]]]
         rings.append([(station, y, z) for y, z in ring])
     return surface_of(loft(np.array(rings)))
@@ -53,7 +61,9 @@ def lining(outline: np.ndarray, cockpit: tuple[float, float], floor: float = 0.3
 def roll_bar(half: float, foot: float, top: float) -> Surface:
     """Bent tube across the car, from `foot` up to `top` [m]."""
     turn = np.linspace(0.0, np.pi, 33)
-    bend = np.column_stack([np.zeros(33), half * np.sign(np.cos(turn)) * np.abs(np.cos(turn)) ** 0.6, np.sin(turn) ** 0.6])
+    bend = np.column_stack(
+        [np.zeros(33), half * np.sign(np.cos(turn)) * np.abs(np.cos(turn)) ** 0.6, np.sin(turn) ** 0.6]
+    )
     bend[:, 2] = foot + (top - foot) * bend[:, 2]
     return surface_of(tube(bend, 0.022, 12))
 
@@ -66,7 +76,9 @@ def seat() -> Surface:
     return both(rounded_box(0.48, 0.40, 0.12, 0.05), back)
 
 
-def arch(half: float, low: float, high: float, *, foot: float, depth: float, thickness: float, right_only: bool = False) -> Surface:
+def arch(
+    half: float, low: float, high: float, *, foot: float, depth: float, thickness: float, right_only: bool = False
+) -> Surface:
     """Bridge across the car that carries the spring domes: two legs leaning outwards and a flat top, centred in x.
 
     Args:
@@ -81,7 +93,9 @@ def arch(half: float, low: float, high: float, *, foot: float, depth: float, thi
     inner = [(0.0, high - thickness), (half - thickness - 0.05, high - thickness), (foot - thickness, low)]
     left, right = np.array([*outer, *inner]), np.array([*outer, *inner])[::-1] * [-1, 1]
     parts = [right] if right_only else [left, right]
-    return both(*(surface_of(loft(np.array([[(x, y, z) for y, z in part] for x in (-depth / 2, depth / 2)]))) for part in parts))
+    return both(
+        *(surface_of(loft(np.array([[(x, y, z) for y, z in part] for x in (-depth / 2, depth / 2)]))) for part in parts)
+    )
 
 
 def both(*parts: Surface) -> Surface:
@@ -127,6 +141,11 @@ def _section(half: float, low: float, high: float, sunk: float) -> np.ndarray:
     bulge = np.sqrt(1 - (1 - share) ** 2.4)
     flank = np.column_stack([half * (0.80 + 0.20 * bulge), low + (belt - low) * share**1.3])
     side = np.column_stack([half - upper * (1 - np.cos(turn)), high - crown - upper * (1 - np.sin(turn))])
-    top = [(rim, high - 0.8 * crown), (rim - 0.008, high - 0.78 * crown - sunk), (0.5 * rim, high - 0.2 * crown - sunk), (0.0, high - sunk)]
+    top = [
+        (rim, high - 0.8 * crown),
+        (rim - 0.008, high - 0.78 * crown - sunk),
+        (0.5 * rim, high - 0.2 * crown - sunk),
+        (0.0, high - sunk),
+    ]
     right = np.vstack([[(0.0, low), (0.5 * half, low)], flank, side, top])
     return np.vstack([right, right[-2:0:-1] * [-1, 1]])

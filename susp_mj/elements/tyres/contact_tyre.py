@@ -46,10 +46,10 @@ class ContactLaw:
         contact(kappa, tan_alpha, camber, load, rolling, lateral, friction, p, out) -> None
 
     with the slips kappa and tan alpha [1] (lagged ones, see `slip`; a driven wheel has kappa > 0, a tyre that drifts to
-    the left alpha > 0 and F_y < 0), camber [rad] (positive: the wheel leans to the right), load F_z [N], velocity of the
-    contact point forwards ``rolling`` V_x and to the left ``lateral`` V_y [m/s], and the road's ``friction`` [1], a factor
-    on the friction of the measurement. It writes ``out[0..7]`` in the order of `ContactForces`, at zero load no force and
-    no moment, and divides by no speed.
+    the left alpha > 0 and F_y < 0), camber [rad] (positive: the wheel leans to the right), load F_z [N], velocity of
+    the contact point forwards ``rolling`` V_x and to the left ``lateral`` V_y [m/s], and the road's ``friction`` [1], a
+    factor on the friction of the measurement. It writes ``out[0..7]`` in the order of `ContactForces`, at zero load no
+    force and no moment, and divides by no speed.
 
     Attributes:
         name: unique; the number that stands for the law in compiled code is derived from it.

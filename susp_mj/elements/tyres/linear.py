@@ -46,8 +46,8 @@ class LinearContactTyre(ContactTyre):
     """Linear tyre: ``F_x = C_x s kappa``, ``F_y = -s (C_y tan alpha + C_g gamma)``, ``M_z = t s C_y tan alpha``.
 
     The share s is ``F_z/F_zN`` with `load_dependent`, else 1, and 0 without contact. ``M_x = 0``,
-    ``M_y = -f_r R_0 F_z``, ``R_e = R_0``. Rolling backwards M_y and M_z change sign; below 0.1 m/s they fade to zero. It
-    never saturates: there is no friction, and the road's factor on it changes nothing.
+    ``M_y = -f_r R_0 F_z``, ``R_e = R_0``. Rolling backwards M_y and M_z change sign; below 0.1 m/s they fade to zero.
+    It never saturates: there is no friction, and the road's factor on it changes nothing.
 
     Attributes:
         radius, vertical_stiffness, vertical_damping: as for every `ContactTyre`.

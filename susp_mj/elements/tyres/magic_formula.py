@@ -61,7 +61,8 @@ class Model(Description):
 
 
 class Vertical(Description):
-    """Section [VERTICAL]: coefficients of the rolling radius, nominal load [N]; its stiffness and damping are the tyre's own."""
+    """Section [VERTICAL]: coefficients of the rolling radius, nominal load [N]; its stiffness and damping are the
+    tyre's own."""
 
     BREFF: Dimensionless
     DREFF: Dimensionless
@@ -70,7 +71,8 @@ class Vertical(Description):
 
 
 class Ranges(Description):
-    """Valid slip [1], slip angle and camber [rad] and load [N]; inputs beyond are held at the limits (the load only above)."""
+    """Valid slip [1], slip angle and camber [rad] and load [N]; inputs beyond are held at the limits (the load only
+    above)."""
 
     KPUMIN: Annotated[float, Quantity("", lt=0)] = -1.5
     KPUMAX: Annotated[float, Quantity("", gt=0)] = 1.5
@@ -99,7 +101,9 @@ class MagicFormula(ContactTyre):
             for section, names in (("longitudinal", ("RBX1", "RBX2", "RCX1")), ("lateral", ("RBY1", "RBY2", "RCY1"))):
                 for name in names:
                     if getattr(getattr(self, section), name) is None:
-                        raise wrong("is required for combined slip (USE_MODE 4); USE_MODE 3 does without", f"{section}.{name}")
+                        raise wrong(
+                            "is required for combined slip (USE_MODE 4); USE_MODE 3 does without", f"{section}.{name}"
+                        )
         return self
 
     @model_validator(mode="after")
@@ -110,7 +114,10 @@ class MagicFormula(ContactTyre):
             except (ArithmeticError, ValueError):
                 finite = False
             if not finite:
-                raise wrong(f"a coefficient is out of all bounds: at slip {slip:g} and a load of {load:g} N the forces are not finite")
+                raise wrong(
+                    f"a coefficient is out of all bounds: at slip {slip:g} and a load of {load:g} N the forces are "
+                    "not finite"
+                )
         return self
 
     def mounted(self, side: Side) -> Self:
@@ -187,7 +194,8 @@ class MagicFormulaTyre(MagicFormula):
         return tuple(float(values[name]) for name in formula.PARAMETERS)
 
     def vertical_load(self, deflection: float, speed: float = 0.0) -> float:
-        """``F_z = max(0, C_z rho + D_z rho')`` [N] of the deflection [m] and its rate [m/s], zero where contact is lost."""
+        """``F_z = max(0, C_z rho + D_z rho')`` [N] of the deflection [m] and its rate [m/s], zero where contact is
+        lost."""
         if deflection <= 0.0:
             return 0.0
         return max(0.0, self.vertical_stiffness * deflection + self.vertical_damping * speed)

@@ -1,4 +1,5 @@
-"""Magic Formula 6.1: the description of a tyre, section by section as in its ``.tir`` file, and its inflation pressure."""
+"""Magic Formula 6.1: the description of a tyre, section by section as in its ``.tir`` file, and its inflation
+pressure."""
 
 from __future__ import annotations
 
@@ -45,16 +46,17 @@ class MagicFormula61Tyre(MagicFormula):
 
         mu_x (1 + PPX3 dp + PPX4 dp²), K_x (1 + PPX1 dp + PPX2 dp²), mu_y (1 + PPY3 dp + PPY4 dp²), K_y (1 + PPY1 dp)
         and the load of its largest value (1 + PPY2 dp), camber stiffness (1 + PPY5 dp), trail (1 - PPZ1 dp),
-        residual moment by camber (1 + PPZ2 dp), QSX2 (1 + PPMX1 dp), M_y (p_i/p_i0)^QSY8, vertical stiffness (1 + PFZ1 dp),
-        carcass (1 + PCFX3 dp), (1 + PCFY3 dp)
+        residual moment by camber (1 + PPZ2 dp), QSX2 (1 + PPMX1 dp), M_y (p_i/p_i0)^QSY8, vertical stiffness (1 + PFZ1
+        dp), carcass (1 + PCFX3 dp), (1 + PCFY3 dp)
 
     MF 6.1 has no relaxation coefficients: the relaxation lengths are slip stiffness over stiffness of the carcass.
 
     Attributes:
-        radius, vertical_stiffness, vertical_damping: as for every `ContactTyre`; the stiffness at the pressure of `operation`.
+        radius, vertical_stiffness, vertical_damping: as for every `ContactTyre`; the stiffness at the pressure of
+            `operation`.
         side: side of the car that this tyre is mounted on; on the other side than TYRESIDE it works mirrored.
-        model, operation, vertical, structure, ranges, scaling, longitudinal, lateral, aligning, overturning, rolling: sections
-            of the file.
+        model, operation, vertical, structure, ranges, scaling, longitudinal, lateral, aligning, overturning, rolling:
+            sections of the file.
 
     Sources: [besselink2010], [pacejka2012] section 4.3.2.
     """
@@ -90,7 +92,8 @@ class MagicFormula61Tyre(MagicFormula):
         return self.operation.INFLPRES / self.operation.NOMPRES - 1.0
 
     def parameters(self) -> tuple[float, ...]:
-        """Numbers for the law in the order of `magic_formula_61_law.PARAMETERS`, scale factors and pressure multiplied in."""
+        """Numbers for the law in the order of `magic_formula_61_law.PARAMETERS`, scale factors and pressure multiplied
+        in."""
         scale, nominal, dp = self.scaling, self.vertical.FNOMIN, self.pressure_change
         structure, reference = self.structure, nominal * scale.LFZO
         values: dict[str, Any] = self.structure.model_dump() | self.vertical.model_dump() | self.ranges.model_dump()
@@ -153,11 +156,17 @@ class MagicFormula61Tyre(MagicFormula):
         )
 
     def vertical_load(
-        self, deflection: float, speed: float = 0.0, rolling: float = 0.0, longitudinal: float = 0.0, lateral: float = 0.0
+        self,
+        deflection: float,
+        speed: float = 0.0,
+        rolling: float = 0.0,
+        longitudinal: float = 0.0,
+        lateral: float = 0.0,
     ) -> float:
         """Load [N] of the deflection, zero where contact is lost.
 
-            F_z = (1 + Q_V2 |V_x|/V_0 - (Q_FCX F_x/F_zN)² - (Q_FCY F_y/F_zN)²)(Q_FZ1 rho/R_0 + Q_FZ2 (rho/R_0)²) F_zN + D_z rho'
+            F_z = (1 + Q_V2 |V_x|/V_0 - (Q_FCX F_x/F_zN)² - (Q_FCY F_y/F_zN)²)(Q_FZ1 rho/R_0 + Q_FZ2 (rho/R_0)²) F_zN +
+            D_z rho'
 
         with ``Q_FZ1 = sqrt((C_z R_0/F_zN)² - 4 Q_FZ2)``, so that C_z is the stiffness at the nominal load.
 
@@ -174,13 +183,18 @@ class MagicFormula61Tyre(MagicFormula):
         load = self._stiffening(rolling, longitudinal, lateral) * (linear + self._square_load * share) * share
         return max(0.0, load + self.vertical_damping * speed)
 
-    def loaded_radius(self, load: float, rolling: float = 0.0, longitudinal: float = 0.0, lateral: float = 0.0) -> float:
-        """Height of the wheel centre [m] under a load [N]: ``R_0 (Q_RE0 + Q_V1 (V_x/V_0)²) - rho``; rho inverts `vertical_load`."""
+    def loaded_radius(
+        self, load: float, rolling: float = 0.0, longitudinal: float = 0.0, lateral: float = 0.0
+    ) -> float:
+        """Height of the wheel centre [m] under a load [N]: ``R_0 (Q_RE0 + Q_V1 (V_x/V_0)²) - rho``; rho inverts
+        `vertical_load`."""
         v, speed = self.vertical, rolling / self.model.LONGVL
         free = self.radius * (v.Q_RE0 + v.Q_V1 * speed * speed)
         height = max(0.0, load) / self._stiffening(rolling, longitudinal, lateral)
         linear = self._linear_load
-        return free - self.radius * 2.0 * height / (linear + math.sqrt(linear * linear + 4.0 * self._square_load * height))
+        return free - self.radius * 2.0 * height / (
+            linear + math.sqrt(linear * linear + 4.0 * self._square_load * height)
+        )
 
     def rolling_radius(self, load: float, rolling: float = 0.0) -> float:
         """R_e [m] of the law under a load [N] at a speed [m/s]."""

@@ -1,4 +1,5 @@
-"""Coefficients of the Magic Formula 6.1, one class a section of the ``.tir`` file; names and meaning as in [besselink2010]."""
+"""Coefficients of the Magic Formula 6.1, one class a section of the ``.tir`` file; names and meaning as in
+[besselink2010]."""
 
 from __future__ import annotations
 
@@ -46,7 +47,8 @@ class Vertical61(Description):
 
 
 class Structure(Description):
-    """Section [STRUCTURAL]: stiffness of the carcass along and across [N/m] at nominal load and pressure, and its changes.
+    """Section [STRUCTURAL]: stiffness of the carcass along and across [N/m] at nominal load and pressure, and its
+    changes.
 
     PCF.1 and PCF.2 with ``df_z`` and its square, PCF.3 with ``dp_i``.
     """
@@ -93,7 +95,8 @@ class Longitudinal61(Description):
 
 
 class Lateral61(Description):
-    """Section [LATERAL_COEFFICIENTS]: P.. of F_y, PP.. with pressure, R.. of its fall with kappa and the side force by kappa."""
+    """Section [LATERAL_COEFFICIENTS]: P.. of F_y, PP.. with pressure, R.. of its fall with kappa and the side force by
+    kappa."""
 
     PCY1: Positive
     PDY1: Positive
@@ -140,7 +143,8 @@ class Lateral61(Description):
 
 
 class Aligning61(Description):
-    """Section [ALIGNING_COEFFICIENTS]: Q.. of the pneumatic trail and the residual moment, S.. of the arm of F_x, PPZ.. with pressure."""
+    """Section [ALIGNING_COEFFICIENTS]: Q.. of the pneumatic trail and the residual moment, S.. of the arm of F_x, PPZ..
+    with pressure."""
 
     QBZ1: Dimensionless
     QBZ2: Dimensionless
@@ -198,7 +202,8 @@ class Overturning61(Description):
 
 
 class Rolling61(Description):
-    """Section [ROLLING_COEFFICIENTS]; without it there is no rolling resistance. QSY7, QSY8: exponents of load and pressure."""
+    """Section [ROLLING_COEFFICIENTS]; without it there is no rolling resistance. QSY7, QSY8: exponents of load and
+    pressure."""
 
     QSY1: Dimensionless = 0.0
     QSY2: Dimensionless = 0.0

@@ -1,25 +1,30 @@
 """Magic Formula 6.1: the contact law, one plain scalar function.
 
-Axes and signs are those of `magic_formula_law`. With ``alpha* = tan alpha``, ``gamma* = sin gamma`` (gamma itself in mu_x, M_x and
-M_y), ``df_z = (F_z - F_z0)/F_z0``, every shape ``sin`` or ``cos`` of ``C atan(B x - E (B x - atan(B x)))`` with E at most 1:
+Axes and signs are those of `magic_formula_law`. With ``alpha* = tan alpha``, ``gamma* = sin gamma`` (gamma itself in
+mu_x, M_x and M_y), ``df_z = (F_z - F_z0)/F_z0``, every shape ``sin`` or ``cos`` of ``C atan(B x - E (B x - atan(B
+x)))`` with E at most 1:
 
     F_x0 = mu_x F_z sin(..; C = PCX1, E_x, x = kappa + S_Hx) + S_Vx                        B_x = K_x/(C_x mu_x F_z)
     K_x  = F_z (PKX1 + PKX2 df_z) exp(PKX3 df_z)
     F_y0 = mu_y F_z sin(..; C = PCY1, E_y, x = alpha* + S_Hy) + S_Vy                       B_y = K_y/(C_y mu_y F_z)
     K_y  = PKY1 F_z0 (1 - PKY3 |gamma*|) sin(PKY4 atan(F_z/F_z0/(PKY2 + PKY5 gamma*²)))
-    S_Hy = PHY1 + PHY2 df_z + (F_z (PKY6 + PKY7 df_z) gamma* - S_Vyg)/K_y                  S_Vyg = F_z (PVY3 + PVY4 df_z) gamma*
-    F_x  = G_xa F_x0,  F_y = G_yk F_y0 + S_Vyk                                             the weights as in MF 5.2
-    M_z  = -t F_y' + M_zr + s F_x                                                          F_y' = G_yk F_y0 without camber
-    t    = D_t cos(..; x = sgn(a) sqrt(a² + (K_x kappa/K_y)²)) cos alpha                   M_zr = D_r cos(atan(B_r x)) cos alpha
-    M_x  = R_0 F_z (QSX1 - QSX2 gamma + QSX3 F_y/F_z0 + QSX10 gamma atan(QSX11 F_z/F_z0) - QSX12 gamma |gamma|
-           + QSX4 cos(QSX5 atan((QSX6 F_z/F_z0)²)) sin(QSX7 gamma + QSX8 atan(QSX9 F_y/F_z0))) + R_0 F_y (QSX13 + QSX14 |gamma|)
-    M_y  = -R_0 F_z0 (QSY1 + QSY2 F_x/F_z0 + QSY3 |V_x/V_0| + QSY4 (V_x/V_0)^4 + (QSY5 + QSY6 F_z/F_z0) gamma²) (F_z/F_z0)^QSY7
-    R_e  = R_0 (Q_RE0 + Q_V1 (V_x/V_0)²) - F_z0/C_z (DREFF atan(BREFF F_z/F_z0) + FREFF F_z/F_z0)
-    sigma_x = K_x/C_x, sigma_y = |K_y|/C_y                                                 C_x, C_y stiffness of the carcass
+    S_Hy = PHY1 + PHY2 df_z + (F_z (PKY6 + PKY7 df_z) gamma* - S_Vyg)/K_y                  S_Vyg = F_z (PVY3 + PVY4
+    df_z) gamma* F_x  = G_xa F_x0,  F_y = G_yk F_y0 + S_Vyk                                             the weights as
+    in MF 5.2 M_z  = -t F_y' + M_zr + s F_x                                                          F_y' = G_yk F_y0
+    without camber t    = D_t cos(..; x = sgn(a) sqrt(a² + (K_x kappa/K_y)²)) cos alpha                   M_zr = D_r
+    cos(atan(B_r x)) cos alpha M_x  = R_0 F_z (QSX1 - QSX2 gamma + QSX3 F_y/F_z0 + QSX10 gamma atan(QSX11 F_z/F_z0) -
+    QSX12 gamma |gamma|
+           + QSX4 cos(QSX5 atan((QSX6 F_z/F_z0)²)) sin(QSX7 gamma + QSX8 atan(QSX9 F_y/F_z0))) + R_0 F_y (QSX13 + QSX14
+           |gamma|)
+    M_y  = -R_0 F_z0 (QSY1 + QSY2 F_x/F_z0 + QSY3 |V_x/V_0| + QSY4 (V_x/V_0)^4 + (QSY5 + QSY6 F_z/F_z0) gamma²)
+    (F_z/F_z0)^QSY7 R_e  = R_0 (Q_RE0 + Q_V1 (V_x/V_0)²) - F_z0/C_z (DREFF atan(BREFF F_z/F_z0) + FREFF F_z/F_z0)
+    sigma_x = K_x/C_x, sigma_y = |K_y|/C_y                                                 C_x, C_y stiffness of the
+    carcass
 
-Inflation pressure enters through the parameters (see `magic_formula_61.MagicFormula61Tyre.parameters`), the wheel's speed in R_e
-through the speed of the contact point. Turn slip is left out (every zeta is 1), and so is the fall of friction with sliding
-speed. The trail's and its stiffness factor's camber terms carry the sign of the camber, as in [besselink2010].
+Inflation pressure enters through the parameters (see `magic_formula_61.MagicFormula61Tyre.parameters`), the wheel's
+speed in R_e through the speed of the contact point. Turn slip is left out (every zeta is 1), and so is the fall of
+friction with sliding speed. The trail's and its stiffness factor's camber terms carry the sign of the camber, as in
+[besselink2010].
 
 Sources: [pacejka2012], section 4.3.2, equations 4.E1 to 4.E78; [besselink2010].
 """
@@ -34,18 +39,24 @@ from ..law import Parameters
 # fmt: off
 PARAMETERS = (
     "SIDE", "COMBINED", "R0", "FZMAX", "KPUMIN", "KPUMAX", "TANMIN", "TANMAX", "CAMMIN", "CAMMAX",
-    "PCX1", "PDX1", "PDX2", "PDX3", "PEX1", "PEX2", "PEX3", "PEX4", "PKX1", "PKX2", "PKX3", "PHX1", "PHX2", "PVX1", "PVX2",
+    "PCX1", "PDX1", "PDX2", "PDX3", "PEX1", "PEX2", "PEX3", "PEX4", "PKX1", "PKX2", "PKX3", "PHX1", "PHX2", "PVX1",
+    "PVX2",
     "RBX1", "RBX2", "RBX3", "RCX1", "REX1", "REX2", "RHX1",
-    "PCY1", "PDY1", "PDY2", "PDY3", "PEY1", "PEY2", "PEY3", "PEY4", "PEY5", "PKY1", "PKY2", "PKY3", "PKY4", "PKY5", "PKY6", "PKY7",
-    "PHY1", "PHY2", "PVY1", "PVY2", "PVY3", "PVY4", "RBY1", "RBY2", "RBY3", "RBY4", "RCY1", "REY1", "REY2", "RHY1", "RHY2",
+    "PCY1", "PDY1", "PDY2", "PDY3", "PEY1", "PEY2", "PEY3", "PEY4", "PEY5", "PKY1", "PKY2", "PKY3", "PKY4", "PKY5",
+    "PKY6", "PKY7",
+    "PHY1", "PHY2", "PVY1", "PVY2", "PVY3", "PVY4", "RBY1", "RBY2", "RBY3", "RBY4", "RCY1", "REY1", "REY2", "RHY1",
+    "RHY2",
     "RVY1", "RVY2", "RVY3", "RVY4", "RVY5", "RVY6",
-    "QBZ1", "QBZ2", "QBZ3", "QBZ4", "QBZ5", "QBZ9", "QBZ10", "QCZ1", "QDZ1", "QDZ2", "QDZ3", "QDZ4", "QDZ6", "QDZ7", "QDZ8",
-    "QDZ9", "QDZ10", "QDZ11", "QEZ1", "QEZ2", "QEZ3", "QEZ4", "QEZ5", "QHZ1", "QHZ2", "QHZ3", "QHZ4", "SSZ1", "SSZ2", "SSZ3", "SSZ4",
+    "QBZ1", "QBZ2", "QBZ3", "QBZ4", "QBZ5", "QBZ9", "QBZ10", "QCZ1", "QDZ1", "QDZ2", "QDZ3", "QDZ4", "QDZ6", "QDZ7",
+    "QDZ8",
+    "QDZ9", "QDZ10", "QDZ11", "QEZ1", "QEZ2", "QEZ3", "QEZ4", "QEZ5", "QHZ1", "QHZ2", "QHZ3", "QHZ4", "SSZ1", "SSZ2",
+    "SSZ3", "SSZ4",
     "QSX1", "QSX2", "QSX3", "QSX4", "QSX5", "QSX6", "QSX7", "QSX8", "QSX9", "QSX10", "QSX11", "QSX12", "QSX13", "QSX14",
     "QSY1", "QSY2", "QSY3", "QSY4", "QSY5", "QSY6", "QSY7", "Q_RE0", "Q_V1", "BREFF", "DREFF", "FREFF", "DEFLECTION",
     "CX", "PCFX1", "PCFX2", "CY", "PCFY1", "PCFY2", "SIGMA_LEAST", "PER_FZ0", "PER_FZN", "FZN", "PER_VREF",
 )
-"""Names of the parameters, in order; FZN is the nominal load, ``PER_X = 1/X``, FZ0 the nominal load times LFZO, ``DEFLECTION = FZN/C_z``.
+"""Names of the parameters, in order; FZN is the nominal load, ``PER_X = 1/X``, FZ0 the nominal load times LFZO,
+``DEFLECTION = FZN/C_z``.
 
 PKY1 is multiplied by FZ0.
 """
@@ -120,8 +131,8 @@ def contact(  # noqa: PLR0915, C901 - one long formula, in the order in which th
 ) -> None:
     """The formulas above as a contact law (see `contact_tyre.ContactLaw`); the road's friction works as in MF 5.2.
 
-    Names end in what they belong to: x, y the forces, z the side force without camber, a, k the weights over alpha and kappa,
-    t the trail, r the residual moment.
+    Names end in what they belong to: x, y the forces, z the side force without camber, a, k the weights over alpha and
+    kappa, t the trail, r the residual moment.
     """
     speed, share = abs(rolling) * p[PER_VREF], max(0.0, load) * p[PER_FZN]
     radius = p[R0] * (p[Q_RE0] + p[Q_V1] * speed * speed)

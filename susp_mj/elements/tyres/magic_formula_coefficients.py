@@ -1,4 +1,5 @@
-"""Coefficients of the Magic Formula 5.2, one class a section of the ``.tir`` file; names and meaning as in [msc2008]."""
+"""Coefficients of the Magic Formula 5.2, one class a section of the ``.tir`` file; names and meaning as in
+[msc2008]."""
 
 from __future__ import annotations
 
@@ -12,7 +13,8 @@ Negative = Annotated[float, Quantity("", lt=0)]
 
 
 class Longitudinal(Description):
-    """Section [LONGITUDINAL_COEFFICIENTS]: P.. of F_x and its relaxation length, R.. of its fall with the slip angle."""
+    """Section [LONGITUDINAL_COEFFICIENTS]: P.. of F_x and its relaxation length, R.. of its fall with the slip
+    angle."""
 
     PCX1: Positive
     PDX1: Positive
@@ -41,7 +43,8 @@ class Longitudinal(Description):
 
 
 class Lateral(Description):
-    """Section [LATERAL_COEFFICIENTS]: P.. of F_y and its relaxation length, R.. of its fall with kappa and the side force by kappa."""
+    """Section [LATERAL_COEFFICIENTS]: P.. of F_y and its relaxation length, R.. of its fall with kappa and the side
+    force by kappa."""
 
     PCY1: Positive
     PDY1: Positive

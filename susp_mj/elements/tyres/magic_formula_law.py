@@ -1,12 +1,14 @@
-"""Magic Formula 5.2 (PAC2002): one plain scalar function a quantity, and `magic_formula_contact` that gives all at once.
+"""Magic Formula 5.2 (PAC2002): one plain scalar function a quantity, and `magic_formula_contact` that gives all at
+once.
 
 Axes are ISO-W: x forward in the wheel plane, y to the left, z up out of the road. With V the speed of the contact point
 and V_s = V - Omega R_e its sliding speed, ``kappa = -V_sx/|V_x|`` and ``tan alpha = V_sy/|V_x|``: a driven wheel has
-kappa > 0 and F_x > 0, a tyre that drifts to the left has alpha > 0 and F_y < 0. Camber gamma is positive where the wheel
-leans to the right (top of the wheel towards -y).
+kappa > 0 and F_x > 0, a tyre that drifts to the left has alpha > 0 and F_y < 0. Camber gamma is positive where the
+wheel leans to the right (top of the wheel towards -y).
 
 The functions of one quantity are there to be read and checked: they follow the source term by term. The car calls
-`magic_formula_contact`, which computes the same numbers with every shared term evaluated once, and adds the road's friction.
+`magic_formula_contact`, which computes the same numbers with every shared term evaluated once, and adds the road's
+friction.
 
 Every function takes ``kappa [1], alpha [rad], camber [rad], load F_z [N]`` and the parameters `p` in the order of
 `PARAMETERS`: coefficients with their scaling factors already multiplied in. Slips and camber beyond the valid ranges of
@@ -26,12 +28,14 @@ from ..law import Parameters
 # fmt: off
 PARAMETERS = (
     "SIDE", "COMBINED", "R0", "FZ0", "FZN", "FZMAX", "KPUMIN", "KPUMAX", "ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX",
-    "PCX1", "PDX1", "PDX2", "PDX3", "PEX1", "PEX2", "PEX3", "PEX4", "PKX1", "PKX2", "PKX3", "PHX1", "PHX2", "PVX1", "PVX2",
+    "PCX1", "PDX1", "PDX2", "PDX3", "PEX1", "PEX2", "PEX3", "PEX4", "PKX1", "PKX2", "PKX3", "PHX1", "PHX2", "PVX1",
+    "PVX2",
     "RBX1", "RBX2", "RCX1", "REX1", "REX2", "RHX1", "PTX1", "PTX2", "PTX3",
     "PCY1", "PDY1", "PDY2", "PDY3", "PEY1", "PEY2", "PEY3", "PEY4", "PKY1", "PKY2", "PKY3", "PHY1", "PHY2", "PHY3",
     "PVY1", "PVY2", "PVY3", "PVY4", "RBY1", "RBY2", "RBY3", "RCY1", "REY1", "REY2", "RHY1", "RHY2",
     "RVY1", "RVY2", "RVY3", "RVY4", "RVY5", "RVY6", "PTY1", "PTY2",
-    "QBZ1", "QBZ2", "QBZ3", "QBZ4", "QBZ5", "QBZ9", "QBZ10", "QCZ1", "QDZ1", "QDZ2", "QDZ3", "QDZ4", "QDZ6", "QDZ7", "QDZ8",
+    "QBZ1", "QBZ2", "QBZ3", "QBZ4", "QBZ5", "QBZ9", "QBZ10", "QCZ1", "QDZ1", "QDZ2", "QDZ3", "QDZ4", "QDZ6", "QDZ7",
+    "QDZ8",
     "QDZ9", "QEZ1", "QEZ2", "QEZ3", "QEZ4", "QEZ5", "QHZ1", "QHZ2", "QHZ3", "QHZ4", "SSZ1", "SSZ2", "SSZ3", "SSZ4",
     "QSX1", "QSX2", "QSX3", "QSY1", "QSY2", "QSY3", "QSY4", "VREF", "LGAX", "LGAY", "LGAZ",
     "DEFLECTION", "BREFF", "DREFF", "FREFF", "SIGMA_LEAST",
@@ -39,8 +43,9 @@ PARAMETERS = (
 )
 """Names of the parameters, in order; FZ0 is the nominal load times LFZO, FZN the nominal load itself.
 
-The last ones are combinations: ``DEFLECTION = FZ0/C_z``, ``PER_X = 1/X``, and of the cornering stiffness and the lateral
-relaxation length the load (``PKY2 FZ0``, ``PTY2 FZ0``) and the value (``PKY1 FZ0``, ``PTY1 R0``) of their largest.
+The last ones are combinations: ``DEFLECTION = FZ0/C_z``, ``PER_X = 1/X``, and of the cornering stiffness and the
+lateral relaxation length the load (``PKY2 FZ0``, ``PTY2 FZ0``) and the value (``PKY1 FZ0``, ``PTY1 R0``) of their
+largest.
 """
 (
     SIDE, COMBINED, R0, FZ0, FZN, FZMAX, KPUMIN, KPUMAX, ALPMIN, ALPMAX, CAMMIN, CAMMAX,
@@ -79,7 +84,8 @@ def load_change(load: float, p: Parameters) -> float:
 
 
 def longitudinal_stiffness(load: float, p: Parameters) -> float:
-    """``K_x = F_z (PKX1 + PKX2 df_z) exp(PKX3 df_z)`` [N]: slope of F_x over kappa where the slip, less its shift, is zero."""
+    """``K_x = F_z (PKX1 + PKX2 df_z) exp(PKX3 df_z)`` [N]: slope of F_x over kappa where the slip, less its shift, is
+    zero."""
     load = within(load, 0.0, p[FZMAX])
     dfz = load_change(load, p)
     return load * (p[PKX1] + p[PKX2] * dfz) * math.exp(p[PKX3] * dfz)
@@ -125,7 +131,8 @@ def pure_longitudinal_force(kappa: float, camber: float, load: float, p: Paramet
 
 
 def unmirrored_lateral_force(alpha: float, camber: float, load: float, p: Parameters) -> float:
-    """F_y0 [N] on the side of the car that the coefficients were measured for; `load` above zero, arguments in range."""
+    """F_y0 [N] on the side of the car that the coefficients were measured for; `load` above zero, arguments in
+    range."""
     friction = lateral_friction(camber, load, p) * load
     if friction <= 0.0:
         return 0.0
@@ -145,7 +152,8 @@ def pure_lateral_force(alpha: float, camber: float, load: float, p: Parameters) 
 
 
 def longitudinal_weight(kappa: float, alpha: float, load: float, p: Parameters) -> float:
-    """``G_xa = cos(C atan(B a - E (..)))`` at ``a = alpha + S_H`` over its value at ``a = S_H``; ``B = RBX1 cos(atan(RBX2 kappa))``."""
+    """``G_xa = cos(C atan(B a - E (..)))`` at ``a = alpha + S_H`` over its value at ``a = S_H``; ``B = RBX1
+    cos(atan(RBX2 kappa))``."""
     b = p[RBX1] * math.cos(math.atan(p[RBX2] * kappa))
     e = p[REX1] + p[REX2] * load_change(load, p)
     return math.cos(p[RCX1] * bent(b, e, alpha + p[RHX1])) / math.cos(p[RCX1] * bent(b, e, p[RHX1]))
@@ -192,7 +200,8 @@ def equivalent_slip(alpha: float, kappa: float, stiffness_ratio: float) -> float
 
 
 def pneumatic_trail(kappa: float, alpha: float, camber: float, load: float, p: Parameters) -> float:
-    """``t = D_t cos(C_t atan(B_t a - E_t (B_t a - atan(B_t a))))`` [m], a the equivalent slip; the cosine of alpha is left out."""
+    """``t = D_t cos(C_t atan(B_t a - E_t (B_t a - atan(B_t a))))`` [m], a the equivalent slip; the cosine of alpha is
+    left out."""
     dfz, gamma = load_change(load, p), camber * p[LGAZ]
     slip = alpha + p[QHZ1] + p[QHZ2] * dfz + (p[QHZ3] + p[QHZ4] * dfz) * gamma
     b = (p[QBZ1] + p[QBZ2] * dfz + p[QBZ3] * dfz * dfz) * (1.0 + p[QBZ4] * gamma + p[QBZ5] * abs(gamma))
@@ -218,8 +227,8 @@ def residual_moment(kappa: float, alpha: float, camber: float, load: float, p: P
 def aligning_moment(kappa: float, alpha: float, camber: float, load: float, heading: float, p: Parameters) -> float:
     """``M_z = -t (F_y - S_Vyk) cos alpha + M_zr cos alpha + s F_x`` [N m], positive to the left.
 
-    `heading` is ``V_x/|V|``, the signed cosine of alpha (see `slip.heading`): negative rolling backwards, 0 at standstill.
-    ``s = R_0 (SSZ1 + SSZ2 F_y/F_zN + (SSZ3 + SSZ4 df_z) gamma)`` counts with combined slip only.
+    `heading` is ``V_x/|V|``, the signed cosine of alpha (see `slip.heading`): negative rolling backwards, 0 at
+    standstill. ``s = R_0 (SSZ1 + SSZ2 F_y/F_zN + (SSZ3 + SSZ4 df_z) gamma)`` counts with combined slip only.
     """
     load = within(load, 0.0, p[FZMAX])
     if load < SMALLEST_LOAD:
@@ -290,7 +299,8 @@ def arctangent(x: float) -> float:
 
 
 def sine(x: float) -> float:
-    """``sin x`` to 4e-16, compiled in line: reduced to ``|r| < pi/2``, there a polynomial; for arguments of a few turns."""
+    """``sin x`` to 4e-16, compiled in line: reduced to ``|r| < pi/2``, there a polynomial; for arguments of a few
+    turns."""
     half_turns = math.floor(x * 0.3183098861837907 + 0.5)
     r = x - half_turns * math.pi
     u = r * r
@@ -321,11 +331,12 @@ def magic_formula_contact(  # noqa: PLR0915, C901 - one long formula, in the ord
     """All of the functions above in one, as a contact law (see `contact_tyre.ContactLaw`).
 
     The road's friction f acts as if LMUX and LMUY were f times what they are: it multiplies the friction, the vertical
-    shifts and the residual moment and divides the stiffness factors of the moment; the slip stiffnesses stay. The cosine
-    of an arc tangent is ``1/sqrt(1 + x²)``, the sine of twice one ``2 x/(1 + x²)``. Arc tangents that do not need each other
-    stand side by side, because then they are computed at the same time.
+    shifts and the residual moment and divides the stiffness factors of the moment; the slip stiffnesses stay. The
+    cosine of an arc tangent is ``1/sqrt(1 + x²)``, the sine of twice one ``2 x/(1 + x²)``. Arc tangents that do not
+    need each other stand side by side, because then they are computed at the same time.
 
-    Names end in what they belong to: x, y the forces, a, k their weights over alpha and kappa, t the trail, r the residual.
+    Names end in what they belong to: x, y the forces, a, k their weights over alpha and kappa, t the trail, r the
+    residual.
     """
     share = max(0.0, load) * p[PER_FZ0]
     radius = p[R0] - p[DEFLECTION] * (p[DREFF] * arctangent(p[BREFF] * share) + p[FREFF] * share)

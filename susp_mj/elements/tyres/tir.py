@@ -1,4 +1,5 @@
-"""Reader of tyre property files (``.tir``): sections in brackets, ``KEY = value`` lines, comments after ``$`` or ``!``."""
+"""Reader of tyre property files (``.tir``): sections in brackets, ``KEY = value`` lines, comments after ``$`` or
+``!``."""
 
 from __future__ import annotations
 
@@ -32,7 +33,8 @@ _DIMENSIONS: dict[str, dict[str, int]] = {
     **{key: {"PRESSURE": 1} for key in ("INFLPRES", "NOMPRES", "PRESMIN", "PRESMAX")},
     **{key: {"ANGLE": 1} for key in ("ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX")},
 }
-"""Keys with a dimension, as powers of the [UNITS]; every other number is a coefficient of the formula in radians and SI."""
+"""Keys with a dimension, as powers of the [UNITS]; every other number is a coefficient of the formula in radians and
+SI."""
 _SECTIONS = {
     "MODEL": "model",
     "OPERATING_CONDITIONS": "operation",
@@ -73,7 +75,24 @@ _61 = _Version(
     "MF 6.1",
     MagicFormula61Tyre,
     # relaxation of other versions, gyroscopic couple, turn slip, fall of friction with speed where it is none
-    frozenset({"PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "QTZ1", "MBELT", "LGYR", "LSGKP", "LSGAL", "LGAX", "LGAY", "LGAZ", "LMP"}),
+    frozenset(
+        {
+            "PTX1",
+            "PTX2",
+            "PTX3",
+            "PTY1",
+            "PTY2",
+            "QTZ1",
+            "MBELT",
+            "LGYR",
+            "LSGKP",
+            "LSGAL",
+            "LGAX",
+            "LGAY",
+            "LGAZ",
+            "LMP",
+        }
+    ),
 )
 _FORMATS = ("PAC2002", "MF_05", "USER")
 _FIT_TYPES = {"6": _52, "21": _52, "52": _52, "61": _61, "62": _61}
@@ -87,15 +106,16 @@ def load_tyre(path: str | Path, *, inflation_pressure: float | None = None) -> M
     """Read a Magic Formula tyre, version 5.2 or 6.1, from a ``.tir`` file.
 
     ``[UNITS]`` applies to the radius, speed, stiffness, damping, loads, pressures and the ranges of angles, loads and
-    pressure; SI where a unit is not given. USE_MODE may carry tens and hundreds for transients (14 is 4), which here are
-    the caller's choice. The vertical stiffness of a 6.1 tyre becomes the one at its inflation pressure.
+    pressure; SI where a unit is not given. USE_MODE may carry tens and hundreds for transients (14 is 4), which here
+    are the caller's choice. The vertical stiffness of a 6.1 tyre becomes the one at its inflation pressure.
 
     Args:
         path: the file.
         inflation_pressure: [Pa] in place of the file's; only version 6.1 depends on it.
 
     Raises:
-        InputError: not readable, another formula, an unknown unit or coefficient, a missing one, a value that is not allowed.
+        InputError: not readable, another formula, an unknown unit or coefficient, a missing one, a value that is not
+            allowed.
     """
     path = Path(path)
     sections = read_sections(path)
@@ -109,7 +129,9 @@ def load_tyre(path: str | Path, *, inflation_pressure: float | None = None) -> M
     data["radius"] = _value("UNLOADED_RADIUS", radius, factors, "DIMENSION", source)
     if inflation_pressure is not None:
         if "operation" not in data:
-            raise InputError(f"{version.name} does not depend on it; take a tyre of MF 6.1", key="inflation_pressure", source=source)
+            raise InputError(
+                f"{version.name} does not depend on it; take a tyre of MF 6.1", key="inflation_pressure", source=source
+            )
         data["operation"]["INFLPRES"] = inflation_pressure
     try:
         tyre = validate(version.tyre, data, source=source)
@@ -158,7 +180,9 @@ def _version(model: dict[str, str], source: str) -> _Version:
         raise InputError(f"is required; {choices(_FORMATS)}", key="MODEL.PROPERTY_FILE_FORMAT", source=source)
     version = _FIT_TYPES[fit] if fit is not None else _52
     if form is not None and form.upper() not in _FORMATS and version is _52:
-        raise InputError(f"'{form}' is not supported; {choices(_FORMATS, form)}", key="MODEL.PROPERTY_FILE_FORMAT", source=source)
+        raise InputError(
+            f"'{form}' is not supported; {choices(_FORMATS, form)}", key="MODEL.PROPERTY_FILE_FORMAT", source=source
+        )
     if form is not None and form.upper() == "USER" and fit is None:
         raise InputError("is required with PROPERTY_FILE_FORMAT 'USER'", key="MODEL.FITTYP", source=source)
     return version
@@ -203,7 +227,9 @@ def _value(key: str, text: str, factors: dict[str, float], section: str, source:
         raise InputError(f"'{text}' is not a finite number", key=f"{section}.{key}", source=source)
     if key == "USE_MODE":
         if number < 0 or number != int(number):
-            raise InputError(f"'{text}' is not a mode; write a whole number, 0 at least", key=f"{section}.{key}", source=source)
+            raise InputError(
+                f"'{text}' is not a mode; write a whole number, 0 at least", key=f"{section}.{key}", source=source
+            )
         return int(number) % 10
     for unit, power in _DIMENSIONS.get(key, {}).items():
         number *= factors[unit] ** power
@@ -219,7 +245,9 @@ def _refuse_effect(key: str, text: str, known: Any, section: str, version: _Vers
         return
     if _NUMBER.match(text) and float(text.upper().replace("D", "E")) == neutral:
         return
-    raise InputError(f"unknown coefficient of {version.name}; {choices(known, key)}", key=f"{section}.{key}", source=source)
+    raise InputError(
+        f"unknown coefficient of {version.name}; {choices(known, key)}", key=f"{section}.{key}", source=source
+    )
 
 
 def _key_in_file(key: str) -> str:
@@ -228,7 +256,12 @@ def _key_in_file(key: str) -> str:
         return f"VERTICAL.{key.upper()}"
     field, _, name = key.partition(".")
     if field == "ranges":
-        start = {"KPU": "LONG_SLIP_RANGE", "ALP": "SLIP_ANGLE_RANGE", "CAM": "INCLINATION_ANGLE_RANGE", "PRE": "INFLATION_PRESSURE_RANGE"}
+        start = {
+            "KPU": "LONG_SLIP_RANGE",
+            "ALP": "SLIP_ANGLE_RANGE",
+            "CAM": "INCLINATION_ANGLE_RANGE",
+            "PRE": "INFLATION_PRESSURE_RANGE",
+        }
         return f"{start.get(name[:3], 'VERTICAL_FORCE_RANGE')}.{name}"
     section = next((section for section, each in _SECTIONS.items() if each == field), field)
     return ".".join(part for part in (section, name) if part)
