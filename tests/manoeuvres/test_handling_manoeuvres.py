@@ -41,7 +41,7 @@ from susp_mj import InputError
 from susp_mj.description import validate
 from susp_mj.meaning import Input
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 GERMAN = {
     "zuziehen": RampSteer,
     "lenkwinkelsprung": StepSteer,

@@ -20,7 +20,7 @@ from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, K_AND_C, build, write
 from vehicles.vehicle import load_vehicle
 
-from .verification.plain_car import Driven, PlainCar
+from ..verification.plain_car import Driven, PlainCar
 
 CORNERS = ("fl", "fr", "rl", "rr")
 

@@ -27,7 +27,7 @@ from susp_mj.elements import GRAVITY
 from susp_mj.errors import InputError
 from vehicles import load_vehicle
 
-from .comparisons import SETS, compare, on_four_wheels
+from ..builders.comparisons import SETS, compare, on_four_wheels
 
 SVG = "{http://www.w3.org/2000/svg}"
 

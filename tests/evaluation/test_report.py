@@ -20,7 +20,7 @@ from evaluation.report import LARGEST_VIDEO, write_report, write_sheet, write_su
 from susp_mj.errors import InputError
 from vehicles import load_vehicle
 
-from .comparisons import SETS, compare
+from ..builders.comparisons import SETS, compare
 
 ARGUMENTS = [
     "--no-sandbox",

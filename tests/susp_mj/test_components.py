@@ -443,7 +443,7 @@ def test_a_wrong_ratio_in_a_car_is_told_with_its_place():
 
 
 def test_the_example_runs_as_a_program(tmp_path):
-    example, sheet = Path(__file__).parents[1] / "examples" / "component_level.py", tmp_path / "sheet.html"
+    example, sheet = Path(__file__).parents[2] / "examples" / "component_level.py", tmp_path / "sheet.html"
     result = subprocess.run([sys.executable, example, sheet], capture_output=True, text=True, timeout=120, check=False)
     assert result.returncode == 0, result.stderr
     car = {

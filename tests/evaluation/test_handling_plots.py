@@ -29,8 +29,8 @@ from manoeuvres import (
 from susp_mj.meaning import Input
 from susp_mj.names import CORNERS, QUANTITIES
 
-from .comparisons import compare
-from .handling_runs import Bicycle, compared, driven, made_up
+from ..builders.comparisons import compare
+from ..builders.handling_runs import Bicycle, compared, driven, made_up
 
 SVG = "{http://www.w3.org/2000/svg}"
 SOFT, STIFF = Bicycle(front_share=0.8, roll_gradient=0.016), Bicycle()

@@ -21,7 +21,7 @@ from susp_mj.elements.tyres.tir import load_tyre
 from vehicles import load_vehicle
 from vehicles.vehicle import FOLDER
 
-from .comparisons import compare
+from ..builders.comparisons import compare
 
 TYRE = load_tyre(FOLDER / "tyres" / "pac2002_245_40R18.tir")
 CURVES = tyre_curves(TYRE, 4000.0)

@@ -12,7 +12,7 @@ from susp_mj.linear import linearise
 from vehicles import load_vehicle
 from vehicles.mjcf import OSCILLATION, build
 
-from .verification.test_random_road import LINEAR_CAR
+from ..verification.test_random_road import LINEAR_CAR
 
 
 @pytest.fixture

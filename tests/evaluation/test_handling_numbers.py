@@ -48,7 +48,7 @@ from susp_mj.units import to_si
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
-from .handling_runs import STATIC, Bicycle, compared, driven, made_up
+from ..builders.handling_runs import STATIC, Bicycle, compared, driven, made_up
 
 CAR = Bicycle()
 SLOW = RampSteer(rate="3 deg/s", duration=45.0, limit="125 deg")

@@ -17,7 +17,7 @@ from evaluation import video
 from manoeuvres import find_manoeuvre
 from susp_mj import InputError
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 
 
 def call(*arguments: str, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
