@@ -26,8 +26,8 @@ from scipy.integrate import solve_ivp
 from manoeuvres import Bump
 from susp_mj import simulate
 from susp_mj.compiled import input_block
+from susp_mj.inputs import sample_inputs
 from susp_mj.plant import Plant
-from susp_mj.simulation import sample_inputs
 from susp_mj.trim import Blocks
 from vehicles import load_vehicle
 from vehicles.mjcf import build

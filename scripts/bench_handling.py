@@ -15,9 +15,9 @@ from scipy.integrate import odeint, solve_ivp
 from manoeuvres import StepSteer
 from susp_mj import simulate
 from susp_mj.compiled import input_block
+from susp_mj.inputs import sample_inputs
 from susp_mj.plant import Plant
 from susp_mj.run import Run
-from susp_mj.simulation import sample_inputs
 from susp_mj.trim import Blocks, trimmed
 from vehicles import load_vehicle
 from vehicles.mjcf import build

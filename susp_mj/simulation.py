@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from importlib.metadata import version
 
 import mujoco
 import numpy as np
 
-from .chassis import free_motion
-from .elements.car import HEAD, SIGNALS
+from .elements.car import SIGNALS
 from .equilibrium import static_equilibrium
 from .errors import InputError, SimulationError
+from .inputs import sample_inputs
 from .manoeuvre import Manoeuvre
-from .names import channel_name
 from .plant import Plant
-from .roads import Road
-from .run import Channel, Run, described
+from .recording import FIELDS, as_run, diverged
+from .run import Run
 from .trim import Blocks, remembered, remind, trimmed
 
 STEP = 1e-3
@@ -36,11 +33,7 @@ MOST_STEPS = 10_000_000
 STABLE = 2.785
 """Runge-Kutta 4 is stable on the negative real axis up to step / time constant = 2.785."""
 
-_FIELDS = ("qpos", "qvel", "qacc", "actuator_force")
-_TANGENTS = [i for i, name in enumerate(SIGNALS) if name.endswith("slip_angle")]
-_FALLING = 1.0  # rad
 _CHUNK = 2000
-_BLOCK = 128
 
 Progress = Callable[[float], None]
 
@@ -85,23 +78,9 @@ def simulate(
         )
     manoeuvre.check(meaning.inputs, meaning.model)
     _check_step(plant, step)
+    _check_length(manoeuvre, step, record_every)
     install(plant.laws, plant.contacts)
 
-    if manoeuvre.duration / step > MOST_STEPS:
-        raise InputError(
-            f"{manoeuvre.duration:g} s is too long for a step of {1000 * step:g} ms; allowed are {MOST_STEPS:.0e} "
-            "steps, "
-            f"{MOST_STEPS * step:g} s",
-            key="duration",
-            source="manoeuvre",
-        )
-    if record_every * step > manoeuvre.duration:
-        raise InputError(
-            f"{record_every} is not allowed; a run of {manoeuvre.duration:g} s has {int(manoeuvre.duration / step)} "
-            "steps",
-            key="record_every",
-            source="simulate",
-        )
     steps = max(round(manoeuvre.duration / step / record_every), 1) * record_every
     road, driver = (manoeuvre.road(), manoeuvre.driver()) if plant.contacts else (None, None)
     samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2), road)
@@ -122,8 +101,8 @@ def simulate(
     attach_input(data, blocks.inputs, blocks.road, blocks.driver)
     remind(data, memory)
 
-    fields = (*_FIELDS, "signals") if plant.contacts else _FIELDS
-    width = sum(getattr(data, name).size for name in _FIELDS) + (len(SIGNALS) if plant.contacts else 0)
+    fields = (*FIELDS, "signals") if plant.contacts else FIELDS
+    width = sum(getattr(data, name).size for name in FIELDS) + (len(SIGNALS) if plant.contacts else 0)
     records = np.empty((steps // record_every + 1, width))
     rows, done, sound = 0, 0, True
     chunk = max(_CHUNK // record_every, 1) * record_every
@@ -135,7 +114,7 @@ def simulate(
         if progress is not None:
             progress(done / steps)
     time = np.arange(rows) * (step * record_every)
-    run = _as_run(
+    run = as_run(
         plant,
         manoeuvre,
         time,
@@ -146,7 +125,7 @@ def simulate(
         steered=driver is not None,
     )
     if not sound or any(warning.number for warning in data.warning):
-        raise SimulationError(_diverged(run, step))
+        raise SimulationError(diverged(run, step))
     return run
 
 
@@ -193,45 +172,22 @@ def fine_enough(plant: Plant) -> int:
     return max(1, int(np.ceil(STEP / fastest - 1e-9)))
 
 
-def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, road: Road | None = None) -> np.ndarray:
-    """(samples, inputs, 2) values and rates of every input of the plant; a car that drives meets its `road` itself."""
-    samples = np.zeros((len(time), len(plant.meaning.inputs), 2))
-    over_ground = plant.meaning.driving and road is not None
-    for i, place in enumerate(plant.meaning.inputs):
-        if over_ground and place.quantity == "road_height":
-            continue
-        driven = manoeuvre.drive(place, time)
-        if driven is None and plant.meaning.driving:
-            driven = _holding(place.quantity, manoeuvre, time)
-        if driven is not None:
-            samples[:, i, 0], samples[:, i, 1] = driven
-    if not np.isfinite(samples).all():
-        raise InputError(f"manoeuvre {manoeuvre.kind} gives an input that is not finite", source="manoeuvre")
-    if plant.contacts:
-        _check_steering(plant, manoeuvre, samples)
-    return samples
-
-
-def _check_steering(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray) -> None:
-    """Refuse a steering wheel that is turned further than it goes: the car would hold it at its limit and the run be
-    another one."""
-    limit = float(plant.model.numeric_data[HEAD.index("steering_limit")])
-    for i, place in enumerate(plant.meaning.inputs):
-        largest = float(np.abs(samples[:, i, 0]).max())
-        if place.quantity == "steering_wheel_angle" and largest > limit * (1 + 1e-9):
-            raise InputError(
-                f"{manoeuvre.kind} turns the steering wheel by {largest:.4g} rad ({np.degrees(largest):.4g} deg); "
-                "it goes "
-                f"{limit:.4g} rad ({np.degrees(limit):.4g} deg) to either side (steering.limit of "
-                f"{plant.meaning.source})",
-                source="manoeuvre",
-            )
-
-
-def _holding(quantity: str, manoeuvre: Manoeuvre, time: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """A car keeps the speed of its manoeuvre, or stands braked, unless the manoeuvre says otherwise."""
-    value = {"speed_target": manoeuvre.driving_speed(), "speed_control": 1.0}.get(quantity)
-    return None if value is None else (np.full(len(time), value), np.zeros(len(time)))
+def _check_length(manoeuvre: Manoeuvre, step: float, record_every: int) -> None:
+    """Refuse a run that memory does not hold, or one without a second record."""
+    if manoeuvre.duration / step > MOST_STEPS:
+        raise InputError(
+            f"{manoeuvre.duration:g} s is too long for a step of {1000 * step:g} ms; "
+            f"allowed are {MOST_STEPS:.0e} steps, {MOST_STEPS * step:g} s",
+            key="duration",
+            source="manoeuvre",
+        )
+    if record_every * step > manoeuvre.duration:
+        steps = int(manoeuvre.duration / step)
+        raise InputError(
+            f"{record_every} is not allowed; a run of {manoeuvre.duration:g} s has {steps} steps",
+            key="record_every",
+            source="simulate",
+        )
 
 
 def _check_step(plant: Plant, step: float) -> None:
@@ -246,80 +202,3 @@ def _check_step(plant: Plant, step: float) -> None:
                 key=constant.key,
                 source=plant.meaning.source,
             )
-
-
-def _as_run(
-    plant: Plant,
-    manoeuvre: Manoeuvre,
-    time: np.ndarray,
-    records: np.ndarray,
-    inputs: np.ndarray,
-    step: float,
-    road: Road | None,
-    *,
-    steered: bool,
-) -> Run:
-    meaning, model = plant.meaning, plant.model
-    by_column = np.empty(records.shape[::-1])
-    for row in range(0, len(records), _BLOCK):  # a transpose that stays in the cache
-        by_column[:, row : row + _BLOCK] = records[row : row + _BLOCK].T
-    records = by_column.T
-    ends = np.cumsum([model.nq, model.nv, model.nv, model.nu])
-    columns = dict(zip(_FIELDS, np.split(records[:, : ends[-1]], ends[:-1], axis=1), strict=True))
-    columns |= {"input": inputs[..., 0], "input_rate": inputs[..., 1]}
-    channels: dict[str, Channel] = {}
-    if plant.contacts:
-        columns["signal"] = records[:, -len(SIGNALS) :]
-        columns["signal"][:, _TANGENTS] = np.arctan(columns["signal"][:, _TANGENTS])
-        motion = free_motion(columns["qpos"], columns["qvel"], columns["qacc"], meaning.facts)
-        channels |= {quantity: described(quantity, values) for quantity, values in motion.items()}
-    for output, values in plant.outputs(columns):
-        if output.quantity == "path_deviation" and not steered:
-            continue
-        channels[channel_name(output.station, output.quantity)] = described(output.quantity, values, output.station)
-    for i, place in enumerate(meaning.inputs):
-        name = channel_name(place.station, place.quantity)
-        if name not in channels:  # what acts in the end may be more than the input
-            channels[name] = described(place.quantity, inputs[:, i, 0].copy(), place.station)
-    for quantity, values in manoeuvre.record(time).items():
-        channels[quantity] = described(quantity, values)
-    meta = {
-        "title": f"{meaning.title}: {manoeuvre.kind} on {meaning.model}",
-        "vehicle": meaning.vehicle,
-        "load": meaning.load,
-        "model": meaning.model,
-        "manoeuvre": manoeuvre.model_dump(mode="json"),
-        "travel": {t.station: [t.rebound, t.compression] for t in meaning.travels},
-        "facts": dict(meaning.facts),
-        "places": {place.station: [place.x, place.y] for place in meaning.inputs if place.quantity == "road_height"},
-        "step": step,
-        "integrator": "RK4",
-        "versions": dict(_versions()),
-        **({} if road is None else {"road": {"features": [dict(feature) for feature in road.features]}}),
-    }
-    return Run(time, channels, meta)
-
-
-@functools.cache
-def _versions() -> Mapping[str, str]:
-    """Versions of what computes; looked up once."""
-    return {"susp_mj": version("susp_mj"), "mujoco": mujoco.__version__}
-
-
-def _diverged(run: Run, step: float) -> str:
-    """One line that names when the motion left all bounds, and in which channel."""
-    last = {name: channel.values[-1] for name, channel in run.channels.items()}
-    broken = [name for name, value in last.items() if not np.isfinite(value)]
-    accelerations = [name for name in last if name.endswith("acceleration")] or list(last)
-    who = f"{run.meta['vehicle']}, {run.meta['model']}, {run.meta['manoeuvre']['kind']}"
-    if "yaw_angle" in run and len(run.time) > 1:
-        roll, pitch = run["roll_angle"][-2], run["pitch_angle"][-2]
-        if max(abs(roll), abs(pitch)) > _FALLING:
-            name, angle = ("roll", roll) if abs(roll) >= abs(pitch) else ("pitch", pitch)
-            return f"{who}: the car fell over at t = {run.time[-1]:.3f} s, its {name} angle {np.degrees(angle):.0f}°"
-    name = broken[0] if broken else max(accelerations, key=lambda each: abs(last[each]))
-    return (
-        f"{who}: diverged at t = {run.time[-1]:.4f} s, "
-        f"{name} = {last[name]:.3g} {run.channels[name].unit}; the step of {1000 * step:g} ms is too long for the "
-        "stiffest element"
-    )

@@ -64,8 +64,7 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
     if not residual < SETTLED:
         raise SimulationError(
             f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s "
-            "in model "
-            f"{plant.meaning.model}; check preloads, sprung mass and tyres"
+            f"in model {plant.meaning.model}; check preloads, sprung mass and tyres"
         )
     if speed > 0 and plant.meaning.driving and signals_of(data.userdata)[SIGNALS.index("accelerator")] < CREEP:
         raise InputError(
