@@ -4,6 +4,6 @@ from __future__ import annotations
 
 from .building import MODELS, build, specification, write
 from .handling import HANDLING, K_AND_C
-from .oscillation import OSCILLATION, Topology
+from .topology import OSCILLATION, Topology
 
 __all__ = ["HANDLING", "K_AND_C", "MODELS", "OSCILLATION", "Topology", "build", "specification", "write"]

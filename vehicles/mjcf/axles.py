@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -16,9 +16,7 @@ from susp_mj.names import channel_name
 
 from ..vehicle import Axle
 from .parts import POINT_MASS, Form, ModelBuilder, Partner
-
-if TYPE_CHECKING:
-    from .oscillation import Topology
+from .topology import Topology
 
 BODY_HEIGHT = 0.65
 """Height of the drawn body above the ground [m]."""

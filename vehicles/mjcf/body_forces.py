@@ -4,7 +4,6 @@ channel."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from susp_mj.elements import GRAVITY, Overturning, Rig
 from susp_mj.errors import InputError
@@ -12,9 +11,7 @@ from susp_mj.errors import InputError
 from ..vehicle import Vehicle
 from .axles import Corner, height_at
 from .parts import Form, ModelBuilder
-
-if TYPE_CHECKING:
-    from .oscillation import Mass, Topology
+from .topology import Mass, Topology
 
 _RIG_FREQUENCY = 2000.0  # rad/s; stiff against every suspension, soft enough for a step of 1 ms
 

@@ -12,7 +12,8 @@ from susp_mj.plant import Plant, write_mjcf
 
 from ..vehicle import DESIGN_LOAD, Vehicle
 from .handling import HANDLING, handling_specification
-from .oscillation import OSCILLATION, oscillation_specification
+from .oscillation import oscillation_specification
+from .topology import OSCILLATION
 
 MODELS: dict[str, str] = {
     **{name: topology.title for name, topology in OSCILLATION.items()},
