@@ -125,7 +125,8 @@ def check_deflections(plant: Plant, deflections: Mapping[str, float]) -> None:
         if not travel.rebound < deflection < travel.compression:
             raise InputError(
                 f"cannot carry load '{plant.meaning.load}': its equilibrium lies at {1000 * deflection:.1f} mm, "
-                f"outside the travel from {1000 * travel.rebound:.0f} to {1000 * travel.compression:.0f} mm; change preload, rate or load",
+                f"outside the travel from {1000 * travel.rebound:.0f} to {1000 * travel.compression:.0f} mm; change "
+                "preload, rate or load",
                 key=f"{travel.key}.spring",
                 source=plant.meaning.source,
             )
