@@ -15,7 +15,8 @@ import typer
 from susp_mj.errors import InputError, SuspMjError
 
 if TYPE_CHECKING:
-    from .case import Case, Report
+    from .case import Case
+    from .running import Report
 
 app = typer.Typer(
     help="Lay out vehicle springs, dampers and anti-roll bars: simulate, evaluate, compare, animate.",
@@ -39,9 +40,10 @@ def demo(
     out: Out = Path("out/demo"), video: Annotated[bool, typer.Option(help="Render the animation.")] = True
 ) -> None:
     """Reproduce chapter 3 of the thesis: claims beside results, report and video."""
-    from .case import carry_out, load_case
-    from .reproduce import chapter3_claims
-    from .show import print_claims, print_comparison
+    from .case import load_case
+    from .claims import chapter3_claims
+    from .results import carry_out
+    from .terminal import print_claims, print_comparison
 
     case, path = load_case("chapter3")
     with _progress() as progress:
@@ -98,7 +100,7 @@ def show(
     ] = None,
 ) -> None:
     """Show a car's characteristics: key values here, curves in the sheet."""
-    from .show import print_sheet, write_car_sheet
+    from .terminal import print_sheet, write_car_sheet
 
     print_sheet(car)
     if out is not None:
@@ -137,7 +139,7 @@ def modes(
     from vehicles.mjcf import build
     from vehicles.vehicle import load_vehicle
 
-    from .show import print_modes
+    from .terminal import print_modes
 
     vehicle = load_vehicle(car, characteristics)
     title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, model, f"load {load}") if part)
@@ -147,7 +149,7 @@ def modes(
 @app.command("list")
 def list_() -> None:
     """List cars, models, manoeuvres, cases, elements and evaluation numbers."""
-    from .show import print_lists
+    from .terminal import print_lists
 
     print_lists()
 
@@ -199,8 +201,8 @@ def main() -> None:
 def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool) -> None:
     import mujoco
 
-    from .case import carry_out
-    from .show import print_comparison
+    from .results import carry_out
+    from .terminal import print_comparison
 
     mujoco.set_mju_user_warning(
         lambda _: None

@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from design.case import available_cases, carry_out, load_case, run_case, staged
+from design.case import available_cases, load_case
+from design.results import carry_out, staged
+from design.running import run_case
 from susp_mj import InputError, Run
 
 CASE = """

@@ -34,7 +34,8 @@ def test_links_lead_somewhere(page):
 
 
 def test_the_case_file_in_the_readme_runs(tmp_path):
-    from design.case import load_case, run_case
+    from design.case import load_case
+    from design.running import run_case
 
     (text,) = re.findall(r"```toml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
     path = tmp_path / "readme.toml"

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from design.case import carry_out, load_case, read_manoeuvre
+from design.case import load_case, read_manoeuvre
+from design.results import carry_out
 from evaluation import NUMBERS
 from susp_mj import Plant, simulate
 from susp_mj.elements.car import CAR_NUMERIC, HEAD, WHEEL

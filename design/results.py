@@ -1,0 +1,127 @@
+"""Carrying a case out: results, plots, report and video in a folder, all at once or nothing."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+from evaluation.compare import Claim, Comparison
+from susp_mj.errors import InputError, SuspMjError
+from vehicles.mjcf import HANDLING
+
+from .case import Case, file_name
+from .running import Report, run_case
+
+
+def carry_out(
+    case: Case,
+    path: Path,
+    out: Path,
+    *,
+    video: bool = False,
+    claims: Callable[[Comparison], Sequence[Claim]] | None = None,
+    progress: Report = lambda task, done: None,
+) -> Comparison:
+    """Run a case and leave ``summary.json``, ``runs/*.nc``, ``plots/*.svg``, ``report.html`` and a video in `out`.
+
+    The folder receives everything at once at the end; after an error it is as it was. Only a video that fails leaves
+    the other results there, and its error is raised after them.
+
+    Args:
+        claims: published statements to hold against the results.
+
+    Raises:
+        InputError, SimulationError: as `run_case`; or `out` cannot be written.
+    """
+    started = time.perf_counter()
+    no_video: SuspMjError | None = None
+    with staged(out) as stage:
+        comparison = run_case(case, path, progress)
+        if claims is not None:
+            comparison = replace(comparison, claims=tuple(claims(comparison)))
+        simulated = time.perf_counter() - started
+        if video:
+            try:
+                comparison = replace(comparison, videos=(_make_video(case, comparison, stage, progress),))
+            except SuspMjError as error:
+                no_video = error
+        _write_results(comparison, stage, {"simulate_s": round(simulated, 3)}, progress)
+    if no_video is not None:
+        raise no_video
+    return comparison
+
+
+def _make_video(case: Case, comparison: Comparison, stage: Path, progress: Report) -> str:
+    from evaluation.animation import Clip, render_video
+
+    film = case.film.model_dump()
+    film["quality"] = film["quality"] or ("draft" if case.model == HANDLING else "fine")
+    clips = [Clip(each.name, each.run) for each in comparison.configurations]
+    return render_video(clips, stage / "video.mp4", **film, progress=lambda done: progress("render video", done)).name
+
+
+def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float], progress: Report) -> None:
+    from evaluation.plots import draw, save_plots
+    from evaluation.report import write_report, write_summary
+
+    started = time.perf_counter()
+    progress("write results", 0.0)
+    for each in comparison.configurations:
+        each.run.save(stage / "runs" / f"{file_name(each.name)}.nc")
+    progress("write results", 0.2)
+    plots = draw(comparison)
+    progress("write results", 0.8)
+    save_plots(comparison, stage / "plots", plots)
+    write_report(comparison, stage / "report.html", plots=plots)
+    versions = comparison.configurations[0].run.meta["versions"]
+    timings = {**timings, "report_s": round(time.perf_counter() - started, 3)}
+    write_summary(comparison, stage / "summary.json", {"versions": versions, "timings": timings})
+    progress("write results", 1.0)
+
+
+@contextmanager
+def staged(out: Path) -> Iterator[Path]:
+    """A folder to write into; on success its contents replace earlier results in `out`, on any error nothing of it
+    remains.
+
+    Raises:
+        InputError: `out` cannot be written.
+    """
+    created: list[Path] = []
+    stage: Path | None = None
+    try:
+        try:
+            created = [folder for folder in (out, *out.parents) if not folder.exists()]
+            out.mkdir(parents=True, exist_ok=True)
+            stage = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=out))
+        except OSError as error:
+            raise InputError(f"cannot be written: {error.strerror}", source=str(out)) from None
+        yield stage
+        _clear(out)
+        for item in sorted(stage.rglob("*")):
+            if item.is_file():
+                target = out / item.relative_to(stage)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                item.replace(target)
+        created = []
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror or error}", source=str(out)) from None
+    finally:
+        if stage is not None:
+            shutil.rmtree(stage, ignore_errors=True)
+        for folder in created:
+            if folder.is_dir() and not any(folder.iterdir()):
+                folder.rmdir()
+
+
+def _clear(out: Path) -> None:
+    """Take the results of an earlier run away, and nothing else."""
+    if (out / "summary.json").is_file():
+        for pattern in ("summary.json", "report.html", "video.mp4", "runs/*.nc", "plots/*.svg"):
+            for file in out.glob(pattern):
+                file.unlink()
