@@ -74,7 +74,7 @@ def _rendering() -> Finding:
 
 
 def _ffmpeg() -> Finding:
-    from evaluation.video import NO_FFMPEG, ffmpeg_program
+    from evaluation.animation.video import NO_FFMPEG, ffmpeg_program
 
     program = ffmpeg_program()
     return Finding("ffmpeg", program or "not found", None if program else NO_FFMPEG)

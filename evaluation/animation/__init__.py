@@ -4,10 +4,11 @@ runs.
 The picture is a model of its own, posed from a run; the physics are not touched. Drawing happens in a process of its
 own, because OpenGL without a screen has to be chosen before MuJoCo is imported.
 
-`window` chooses the stretch of the runs; `quarter_scene`, `car_scene` and `handling_scene` pose and draw a car,
-`quarter_hud`, `car_hud` and `handling_hud` the texts and traces around it; `style` says from where and how fine; `film`
-puts the frames together, and `render` orders the film from this process. Another kind of car is another `Scene` and
-another `Hud`, entered in `film.KINDS`; what another manoeuvre puts on the road is another entry in `handling_world`.
+`window` chooses the stretch of the runs. `quarter`, `oscillation` and `handling` each have a `scene` that poses and
+draws their cars from meshes of `shapes`, and a `hud` with the texts and traces around it; `style` says from where and
+how fine; `film` puts the frames together, and `render` orders the film from this process. Another kind of car is
+another `Scene` and another `Hud`, entered in `film.KINDS`; what another manoeuvre puts on the road is another entry in
+`handling.world`.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ FREE_FACTS = ("cg_x", "cg_height", "wheelbase", "track_front", "track_rear", "wh
 """Facts of a run without which a car that drives freely cannot be drawn."""
 _FREE_WHEEL = ("wheel_load", "suspension_deflection")
 
-Kind = Literal["quarter", "car", "handling"]
+Kind = Literal["quarter", "oscillation", "handling"]
 """One wheel; a car over a road that passes underneath; a car that drives freely."""
 
 
@@ -57,7 +57,7 @@ def kind_of(clips: Sequence[Clip]) -> Kind:
                 free = pair.pop("handling")
                 text = f"'{free}' drives freely and '{next(iter(pair.values()))}' does not"
             else:
-                text = f"'{pair['quarter']}' has one wheel and '{pair['car']}' several"
+                text = f"'{pair['quarter']}' has one wheel and '{pair['oscillation']}' several"
             raise InputError(f"{text}; show them in two videos", source="video")
     return kinds[0]
 
@@ -84,7 +84,7 @@ def _kind(clip: Clip) -> Kind:
             f"'{clip.label}': only runs of oscillation and handling models can be shown; {model} has no channel "
             f"{missing[0]}"
         )
-    return "quarter" if stations_of(run) == [""] else "car"
+    return "quarter" if stations_of(run) == [""] else "oscillation"
 
 
 def needed_when_free(run: Run) -> list[str]:

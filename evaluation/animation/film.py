@@ -11,22 +11,22 @@ import numpy as np
 from susp_mj.run import Run
 
 from ..colours import COLOURS
-from ..video import Encoder
-from .car_hud import CarHud
-from .car_scene import CarScene
 from .clip import Clip, kind_of
-from .handling_hud import HandlingHud
-from .handling_scene import HandlingScene
+from .handling.hud import HandlingHud
+from .handling.scene import HandlingScene
 from .hud import Hud
-from .quarter_hud import QuarterHud
-from .quarter_scene import QuarterScene
+from .oscillation.hud import OscillationHud
+from .oscillation.scene import OscillationScene
+from .quarter.hud import QuarterHud
+from .quarter.scene import QuarterScene
 from .scene import Scene
 from .style import Shot, Style
+from .video import Encoder
 from .window import Window, window_of
 
 KINDS: dict[str, tuple[Callable[[Shot, Window], Scene], type[Hud]]] = {
     "quarter": (QuarterScene, QuarterHud),
-    "car": (CarScene, CarHud),
+    "oscillation": (OscillationScene, OscillationHud),
     "handling": (HandlingScene, HandlingHud),
 }
 """Scene, and texts around it, of each kind of run that `kind_of` tells apart."""

@@ -94,7 +94,7 @@ class Picture:
         return body
 
     def mesh(self, body: Any, name: str, surface: Any, material: str, pos: Sequence[float] = (0, 0, 0)) -> None:
-        """A triangle mesh from `vehicles.mjcf`, used once."""
+        """A triangle mesh from `shapes`, used once."""
         self.asset(name, surface)
         self.copy(body, name, material, pos, name=name)
 

@@ -14,9 +14,9 @@ from susp_mj.errors import InputError, SuspMjError
 from susp_mj.files import whole
 
 from ..colours import COLOURS
-from ..video import NO_FFMPEG, NO_GL, ffmpeg_program, gl_backend, gl_environment
 from .clip import Clip, kind_of
 from .style import Style
+from .video import NO_FFMPEG, NO_GL, ffmpeg_program, gl_backend, gl_environment
 
 
 def can_render() -> str | None:

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from design.cli import app
 from design.script import default_model
-from evaluation import video
+from evaluation.animation import video
 from manoeuvres import find_manoeuvre
 from susp_mj import InputError
 

@@ -9,16 +9,15 @@ import mujoco
 import numpy as np
 import pytest
 
-from evaluation import video
-from evaluation.animation import Clip, can_render, render, render_video
-from evaluation.animation.car_hud import liveliest_angle, plan
-from evaluation.animation.car_pose import WHEEL_RADIUS as CAR_WHEEL_RADIUS
-from evaluation.animation.car_pose import CarPose, Layout, road_speed
-from evaluation.animation.car_scene import place as place_car
-from evaluation.animation.car_shapes import car_spec
+from evaluation.animation import Clip, can_render, render, render_video, video
 from evaluation.animation.clip import kind_of, tyre_deflection
-from evaluation.animation.quarter_scene import place, pose_at, stretch_coil
-from evaluation.animation.quarter_shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
+from evaluation.animation.oscillation.hud import liveliest_angle, plan
+from evaluation.animation.oscillation.pose import WHEEL_RADIUS as CAR_WHEEL_RADIUS
+from evaluation.animation.oscillation.pose import Layout, OscillationPose, road_speed
+from evaluation.animation.oscillation.scene import place as place_car
+from evaluation.animation.oscillation.shapes import oscillation_spec
+from evaluation.animation.quarter.scene import place, pose_at, stretch_coil
+from evaluation.animation.quarter.shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
 from evaluation.animation.titles import describe
 from evaluation.animation.window import LONGEST_CLIP, window_of
 from evaluation.colours import COLOURS, rgb
@@ -294,7 +293,7 @@ def car_run(kind="full", *, sprung=True, speed=SPEED, lifted=(), phase=0.0):
 
 def drawn_car(run):
     layout = Layout.of(run)
-    model = car_spec(run, layout, COLOURS[0], SIZE, window_of([run], FPS, None)).compile()
+    model = oscillation_spec(run, layout, COLOURS[0], SIZE, window_of([run], FPS, None)).compile()
     return layout, model, mujoco.MjData(model)
 
 
@@ -311,7 +310,7 @@ def test_wheels_and_spring_ends_of_every_corner_follow_the_channels(kind, sprung
     run = car_run(kind, sprung=sprung)
     layout, model, data = drawn_car(run)
     for time in (0.0, 0.2, 0.5, 0.9):
-        pose = CarPose.of(run, layout, time)
+        pose = OscillationPose.of(run, layout, time)
         place_car(model, data, pose)
 
         def now(quantity, time=time):
@@ -335,9 +334,9 @@ def test_wheels_and_spring_ends_of_every_corner_follow_the_channels(kind, sprung
 
 def test_positive_roll_lifts_the_left_side_and_positive_pitch_lowers_the_nose():
     layout, level = Layout.of(car_run()), dict.fromkeys(PLACES["full"], 0.0)
-    rolled = CarPose(layout, 0.0, 0.0, 0.03, level, level, level, 0.0)
+    rolled = OscillationPose(layout, 0.0, 0.0, 0.03, level, level, level, 0.0)
     assert rolled.strut_head("fl")[2] > rolled.strut_head("fr")[2] + 0.02
-    pitched = CarPose(layout, 0.0, 0.03, 0.0, level, level, level, 0.0)
+    pitched = OscillationPose(layout, 0.0, 0.03, 0.0, level, level, level, 0.0)
     assert pitched.strut_head("fl")[2] < pitched.strut_head("rl")[2] - 0.08
 
 
@@ -346,7 +345,7 @@ def test_every_wheel_stands_on_its_own_track(kind):
     run = car_run(kind)
     layout, model, data = drawn_car(run)
     for time in (0.1, 0.45, 0.62):
-        place_car(model, data, CarPose.of(run, layout, time))
+        place_car(model, data, OscillationPose.of(run, layout, time))
         for station, (x, y) in layout.places.items():
             half = drawn_vertices(model, data, f"{'left' if layout.side(station) > 0 else 'right'}_asphalt")
             upper = half[(half[:, 2] > -0.05) & (np.abs(half[:, 0] - x) < 0.2)]
@@ -365,11 +364,11 @@ def test_every_wheel_stands_on_its_own_track(kind):
 )
 def test_every_model_with_several_wheels_can_be_shown(model):
     run = simulate(build(load_vehicle("s_class", "configuration_4"), model), Bump(duration=0.6))
-    assert kind_of([Clip(model, run)]) == "car"
+    assert kind_of([Clip(model, run)]) == "oscillation"
     layout, drawn, data = drawn_car(run)
     assert road_speed(run, layout) == pytest.approx(50 / 3.6)
     for time in (0.0, 0.3, 0.5):
-        pose = CarPose.of(run, layout, time)
+        pose = OscillationPose.of(run, layout, time)
         place_car(drawn, data, pose)
         for station in layout.places:
             deflection = np.interp(time, run.time, run[channel_name(station, "suspension_deflection")])

@@ -9,16 +9,16 @@ import mujoco
 import numpy as np
 import pytest
 
-from evaluation import video
-from evaluation.animation import Clip, can_render, render_video
+from evaluation.animation import Clip, can_render, render_video, video
 from evaluation.animation.clip import features_of, kind_of
-from evaluation.animation.handling_camera import VIEWS, Follow, camera_for, inside
-from evaluation.animation.handling_hud import HandlingHud
-from evaluation.animation.handling_pose import Motion
-from evaluation.animation.handling_shapes import add_car, car_materials
-from evaluation.animation.handling_world import proving_ground, surroundings
+from evaluation.animation.handling.camera import VIEWS, Follow, camera_for, inside
+from evaluation.animation.handling.hud import HandlingHud
+from evaluation.animation.handling.pose import Motion
+from evaluation.animation.handling.shapes import add_car, car_materials
+from evaluation.animation.handling.world import proving_ground, surroundings
 from evaluation.animation.picture import Picture, materials
 from evaluation.animation.scene import put
+from evaluation.animation.shapes.saloon import Saloon, saloon
 from evaluation.animation.style import CAMERAS, Style
 from evaluation.animation.titles import describe
 from evaluation.animation.window import window_of
@@ -29,7 +29,6 @@ from susp_mj.names import CORNERS, channel_name
 from susp_mj.run import Run, described
 from vehicles import load_vehicle
 from vehicles.mjcf import build
-from vehicles.mjcf.saloon import Saloon, saloon
 
 SIZE, FPS = (320, 180), 10
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from susp_mj.names import channel_name
 
-from ..colours import LIFTED, rgb
-from .handling_pose import UP, HandlingPose, Motion, about_z, side_of
-from .layout import load_tone
+from ...colours import LIFTED, rgb
+from ..layout import load_tone
+from .pose import UP, HandlingPose, Motion, about_z, side_of
 
 COLUMN = 1.15
 """Height of a load column for the highest load in the video [m]."""

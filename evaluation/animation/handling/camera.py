@@ -9,9 +9,9 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .clip import features_of
-from .picture import SUN_COURSE
-from .scene import free_camera
+from ..clip import features_of
+from ..picture import SUN_COURSE
+from ..scene import free_camera
 
 _CORNERING, _STANDS = 1.5, 0.1
 _TURNED = {"roll_angle": np.radians(1.0), "steering_wheel_angle": np.radians(90.0)}

@@ -6,16 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from .car_pose import WHEEL_RADIUS, CarPose, Layout, about_x, about_y, road_speed, upright
-from .car_shapes import ARM_HEIGHT, HINGE, car_spec
-from .scene import Frame, Scene, free_camera, put
-from .style import Shot
-from .window import Window
+from ..scene import Frame, Scene, free_camera, put
+from ..style import Shot
+from ..window import Window
+from .pose import WHEEL_RADIUS, Layout, OscillationPose, about_x, about_y, road_speed, upright
+from .shapes import ARM_HEIGHT, HINGE, oscillation_spec
 
 _HALF_ANGLE = 9.0
 
 
-class CarScene(Scene):
+class OscillationScene(Scene):
     """Picture of one car, driving over its road or standing on a test rig.
 
     Args:
@@ -27,15 +27,15 @@ class CarScene(Scene):
         self.run = shot.clips[0].run
         self.layout = Layout.of(self.run)
         super().__init__(
-            car_spec(self.run, self.layout, shot.colours[0], shot.size, window, shot.style.samples), shot.size
+            oscillation_spec(self.run, self.layout, shot.colours[0], shot.size, window, shot.style.samples), shot.size
         )
         self.camera = _camera(self.model, self.layout, shot.size, road_speed(self.run, self.layout) > 0)
 
     def pose(self, time: float) -> None:
-        place(self.model, self.data, CarPose.of(self.run, self.layout, time))
+        place(self.model, self.data, OscillationPose.of(self.run, self.layout, time))
 
 
-def place(model: Any, data: Any, pose: CarPose) -> None:
+def place(model: Any, data: Any, pose: OscillationPose) -> None:
     """Put every part of the picture in its place, coils and arms stretched."""
     put(model, data, frames(pose))
     strut = pose.layout.strut
@@ -59,7 +59,7 @@ def stretch(model: Any, data: Any, geom: str, start: float, scale: float) -> Non
     data.geom_xmat[number] = (rotation @ longer @ turned.reshape(3, 3)).ravel()
 
 
-def frames(pose: CarPose) -> dict[str, Frame]:
+def frames(pose: OscillationPose) -> dict[str, Frame]:
     """Place [m] and (3, 3) rotation of every body of the picture, by name."""
     layout, level = pose.layout, np.eye(3)
     placed = {"body": (pose.on_body(np.zeros(3)), pose.turned), "road": (np.array([-pose.travelled, 0.0, 0.0]), level)}
@@ -85,7 +85,7 @@ def frames(pose: CarPose) -> dict[str, Frame]:
     return placed
 
 
-def arm_ends(pose: CarPose, station: str) -> tuple[np.ndarray, np.ndarray]:
+def arm_ends(pose: OscillationPose, station: str) -> tuple[np.ndarray, np.ndarray]:
     """Ends of a lower arm: its hinge on the body, and the wheel carrier [m]."""
     layout = pose.layout
     (x, _), side = layout.places[station], layout.side(station)

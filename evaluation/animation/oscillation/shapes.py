@@ -1,4 +1,4 @@
-"""Shapes of a car with several wheels: wheels, struts, road or four-post rig; the body comes from `car_bodywork`."""
+"""Shapes of a car with several wheels: wheels, struts, road or four-post rig; the body comes from `bodywork`."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ import numpy as np
 from susp_mj.names import channel_name
 from susp_mj.run import Run
 
-from .car_bodywork import bodywork
-from .car_pose import WHEEL_RADIUS, Layout, road_speed
-from .clip import tyre_deflection
-from .picture import Picture, contact_shadow, materials, studio
-from .window import Window
+from ..clip import tyre_deflection
+from ..picture import Picture, contact_shadow, materials, studio
+from ..shapes import parts
+from ..window import Window
+from .bodywork import bodywork
+from .pose import WHEEL_RADIUS, Layout, road_speed
 
 HINGE = 0.17
 """How far from the plane of symmetry a lower arm is hinged to the body [m]."""
@@ -21,8 +22,10 @@ ARM_HEIGHT = 0.26
 _ROAD_EDGE = 0.75
 
 
-def car_spec(run: Run, layout: Layout, colour: str, size: tuple[int, int], window: Window, samples: int = 4) -> Any:
-    """MuJoCo specification of the picture of a car; `car_scene.place` says where its bodies go."""
+def oscillation_spec(
+    run: Run, layout: Layout, colour: str, size: tuple[int, int], window: Window, samples: int = 4
+) -> Any:
+    """MuJoCo specification of the picture of a car; `scene.place` says where its bodies go."""
     picture = Picture()
     studio(picture, size, extent=4.5, samples=samples)
     picture.spec.visual.quality.numslices, picture.spec.visual.quality.numstacks = 24, 8  # plain shapes are small here
@@ -45,14 +48,12 @@ def car_spec(run: Run, layout: Layout, colour: str, size: tuple[int, int], windo
 
 def wheel_assets(picture: Picture, name: str, radius: float, sections: int = 96) -> list[tuple[str, str]]:
     """Shapes of a wheel whose unloaded tyre has a radius [m], to be copied: (asset, material)."""
-    from vehicles.mjcf import body as shapes
-
     surfaces = (
-        ("tyre", shapes.tyre(radius, sections), "rubber"),
-        ("marks", shapes.sidewall_marks(radius), "mark"),
-        ("rim", shapes.rim(sections=sections), "alloy"),
-        ("bolts", shapes.wheel_bolts(), "dark"),
-        ("disc", shapes.brake_disc(sections), "steel"),
+        ("tyre", parts.tyre(radius, sections), "rubber"),
+        ("marks", parts.sidewall_marks(radius), "mark"),
+        ("rim", parts.rim(sections=sections), "alloy"),
+        ("bolts", parts.wheel_bolts(), "dark"),
+        ("disc", parts.brake_disc(sections), "steel"),
     )
     for part, surface, _ in surfaces:
         picture.asset(f"{name}{part}", surface)
@@ -87,10 +88,8 @@ def _wheels(picture: Picture, run: Run, layout: Layout) -> None:
 def _struts(picture: Picture, layout: Layout) -> None:
     """`<station>_foot`: damper tube, lower seat and the coil, to be stretched; `<station>_head`: piston rod and upper
     seat."""
-    from vehicles.mjcf import body as shapes
-
     strut = layout.strut
-    picture.asset("coil", shapes.coil(strut.coil, 0.064, 0.0085, turns=6.0 if strut.coil > 0.28 else 5.0))
+    picture.asset("coil", parts.coil(strut.coil, 0.064, 0.0085, turns=6.0 if strut.coil > 0.28 else 5.0))
     for station in layout.places:
         foot, head = picture.posed(f"{station}_foot"), picture.posed(f"{station}_head")
         if strut.seat > 0.1:
@@ -129,8 +128,6 @@ def _arms(picture: Picture, layout: Layout) -> None:
 
 def _road(picture: Picture, run: Run, layout: Layout, window: Window) -> None:
     """The road that passes underneath, its left and right half as high as its track."""
-    from vehicles.mjcf import body as shapes
-
     road, speed = picture.posed("road"), road_speed(run, layout)
     start, end = speed * window.start + layout.rear - 9.0, speed * window.end + layout.front + 9.0
     tracks = _tracks(layout)
@@ -147,17 +144,17 @@ def _road(picture: Picture, run: Run, layout: Layout, window: Window) -> None:
         picture.mesh(
             road,
             f"{name}_asphalt",
-            shapes.road(height, [(start, end)], near=near, far=far, top=0.0, bottom=bottom),
+            parts.road(height, [(start, end)], near=near, far=far, top=0.0, bottom=bottom),
             "asphalt",
         )
         edge = outer - 0.16 * np.sign(outer - inner)
         dashes = [(start, end)] if name == "right" else [(x, x + 0.7) for x in np.arange(np.floor(start), end, 1.6)]
-        line = shapes.road(height, dashes, near=edge - 0.045, far=edge + 0.045, top=0.003, bottom=bottom + 0.01)
+        line = parts.road(height, dashes, near=edge - 0.045, far=edge + 0.045, top=0.003, bottom=bottom + 0.01)
         picture.mesh(road, f"{name}_line", line, "line")
         raised = run.time[np.abs(heights - heights[0]) > 1e-4] * speed + ahead
         if len(raised) and raised[-1] - raised[0] < 8.0:
             span = [(float(raised[0]), float(raised[-1]))]
-            bump = shapes.road(height, span, near=near + 0.001, far=far - 0.001, top=0.0015, bottom=bottom + 0.01)
+            bump = parts.road(height, span, near=near + 0.001, far=far - 0.001, top=0.0015, bottom=bottom + 0.01)
             picture.mesh(road, f"{name}_bump", bump, "bump")
     picture.shape(picture.spec.worldbody, "plane", (60, 60, 1), "floor", (0, 0, bottom))
 
@@ -175,9 +172,7 @@ def _tracks(layout: Layout) -> list[tuple[str, str, float, float]]:
 
 def _rig(picture: Picture, layout: Layout) -> None:
     """Test rig: each wheel stands on a plate, ``<station>_plate``, that a cylinder moves."""
-    from vehicles.mjcf import body as shapes
-
-    picture.asset("plate_top", shapes.rounded_box(0.62, 0.40, 0.036, 0.012))
+    picture.asset("plate_top", parts.rounded_box(0.62, 0.40, 0.036, 0.012))
     base = picture.spec.worldbody
     for station, (x, y) in layout.places.items():
         plate = picture.posed(f"{station}_plate")

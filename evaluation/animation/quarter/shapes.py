@@ -8,9 +8,10 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .clip import speed_of, tyre_deflection
-from .picture import Picture, contact_shadow, materials, studio
-from .window import Window
+from ..clip import speed_of, tyre_deflection
+from ..picture import Picture, contact_shadow, materials, studio
+from ..shapes import parts
+from ..window import Window
 
 WHEEL_RADIUS = 0.33
 """Height of the wheel centre above the road in the design position [m]."""
@@ -41,16 +42,14 @@ def quarter_spec(run: Run, colour: str, size: tuple[int, int], window: Window, s
 
 def _bodywork(picture: Picture) -> None:
     """Corner of a car with its spring dome; heights from the wheel centre in the design position."""
-    from vehicles.mjcf import body as shapes
-
     body = picture.body("body", WHEEL_RADIUS, (0, 0, 1))
     arch = {"sill": -0.03, "arch": 0.415, "slot": 0.15}
-    picture.mesh(body, "fender", shapes.fender(length=LENGTH, top=0.735, near=-0.13, far=-0.06, **arch), "paint")
-    picture.mesh(body, "lip", shapes.arch_lip(near=-0.137, far=-0.06, **arch), "liner")
+    picture.mesh(body, "fender", parts.fender(length=LENGTH, top=0.735, near=-0.13, far=-0.06, **arch), "paint")
+    picture.mesh(body, "lip", parts.arch_lip(near=-0.137, far=-0.06, **arch), "liner")
     picture.mesh(
-        body, "deck", shapes.deck(length=LENGTH - 0.012, top=0.737, thickness=0.07, near=-0.133, far=0.46), "paint"
+        body, "deck", parts.deck(length=LENGTH - 0.012, top=0.737, thickness=0.07, near=-0.133, far=0.46), "paint"
     )
-    picture.mesh(body, "liner", shapes.rounded_box(0.9, 0.1, 0.62, 0.03), "liner", (0, 0.35, 0.345))
+    picture.mesh(body, "liner", parts.rounded_box(0.9, 0.1, 0.62, 0.03), "liner", (0, 0.35, 0.345))
     picture.shape(body, "cylinder", (0.1, 0.012), "liner", (0, STRUT, 0.745))
     picture.shape(body, "cylinder", (0.06, 0.02), "dark", (0, STRUT, 0.76))
     picture.shape(body, "cylinder", (0.014, 0.035), "chrome", (0, STRUT, 0.78))
@@ -62,8 +61,6 @@ def _bodywork(picture: Picture) -> None:
 
 def _wheel(picture: Picture, tyre_radius: float) -> None:
     """Wheel with brake, damper tube, lower spring seat and the coil standing on it."""
-    from vehicles.mjcf import body as shapes
-
     carrier = picture.body("wheel", WHEEL_RADIUS, (0, 0, 1))
     picture.shape(carrier, "cylinder", (0.032, 0.22), "steel", (0, STRUT, LOWER_SEAT - 0.18))
     picture.shape(carrier, "cylinder", (0.084, 0.007), "dark", (0, STRUT, LOWER_SEAT - 0.007))
@@ -71,22 +68,20 @@ def _wheel(picture: Picture, tyre_radius: float) -> None:
     picture.shape(carrier, "box", (0.045, 0.07, 0.075), "dark", (0, 0.12, 0.0))
     picture.shape(carrier, "box", (0.028, 0.03, 0.06), "caliper", (-0.135, 0.018, 0.05))
     carrier.add_site(name="coil_foot", pos=[0, STRUT, LOWER_SEAT])
-    picture.mesh(carrier, "coil", shapes.coil(COIL_LENGTH, 0.064, 0.0085), "spring", (0, STRUT, LOWER_SEAT))
+    picture.mesh(carrier, "coil", parts.coil(COIL_LENGTH, 0.064, 0.0085), "spring", (0, STRUT, LOWER_SEAT))
     wheel = picture.turning(carrier, "spin")
     for name, surface, material in (
-        ("tyre", shapes.tyre(tyre_radius), "rubber"),
-        ("marks", shapes.sidewall_marks(tyre_radius), "mark"),
-        ("rim", shapes.rim(), "alloy"),
-        ("bolts", shapes.wheel_bolts(), "dark"),
-        ("disc", shapes.brake_disc(), "steel"),
+        ("tyre", parts.tyre(tyre_radius), "rubber"),
+        ("marks", parts.sidewall_marks(tyre_radius), "mark"),
+        ("rim", parts.rim(), "alloy"),
+        ("bolts", parts.wheel_bolts(), "dark"),
+        ("disc", parts.brake_disc(), "steel"),
     ):
         picture.mesh(wheel, name, surface, material)
 
 
 def _road(picture: Picture, body: Any, run: Run, window: Window) -> None:
     """The road that passes underneath: its height over distance is the run's road height over time."""
-    from vehicles.mjcf import body as shapes
-
     speed = speed_of(run)
 
     def height(x: np.ndarray) -> np.ndarray:
@@ -96,23 +91,21 @@ def _road(picture: Picture, body: Any, run: Run, window: Window) -> None:
     raised = run.time[np.abs(run["road_height"] - run["road_height"][0]) > 1e-4] * speed
     dashes = [(x, x + 0.4) for x in np.arange(np.floor(start), end, 1.0)]
     picture.mesh(
-        body, "asphalt", shapes.road(height, [(start, end)], near=-0.3, far=1.7, top=0.0, bottom=-0.14), "asphalt"
+        body, "asphalt", parts.road(height, [(start, end)], near=-0.3, far=1.7, top=0.0, bottom=-0.14), "asphalt"
     )
     picture.mesh(
-        body, "edge", shapes.road(height, [(start, end)], near=-0.27, far=-0.22, top=0.003, bottom=-0.02), "line"
+        body, "edge", parts.road(height, [(start, end)], near=-0.27, far=-0.22, top=0.003, bottom=-0.02), "line"
     )
-    picture.mesh(body, "dashes", shapes.road(height, dashes, near=1.15, far=1.25, top=0.003, bottom=-0.02), "line")
+    picture.mesh(body, "dashes", parts.road(height, dashes, near=1.15, far=1.25, top=0.003, bottom=-0.02), "line")
     if len(raised) and raised[-1] - raised[0] < 6.0:
         span = [(float(raised[0]), float(raised[-1]))]
-        picture.mesh(body, "bump", shapes.road(height, span, near=-0.302, far=1.701, top=0.0015, bottom=-0.142), "bump")
+        picture.mesh(body, "bump", parts.road(height, span, near=-0.302, far=1.701, top=0.0015, bottom=-0.142), "bump")
     picture.shape(picture.spec.worldbody, "plane", (30, 30, 1), "floor", (0, 0, -0.14))
 
 
 def _rig(picture: Picture, plate: Any) -> None:
     """Test rig: the wheel stands on a plate that a cylinder moves."""
-    from vehicles.mjcf import body as shapes
-
-    picture.mesh(plate, "plate", shapes.rounded_box(0.72, 0.44, 0.036, 0.012), "steel", (0, 0, -0.018))
+    picture.mesh(plate, "plate", parts.rounded_box(0.72, 0.44, 0.036, 0.012), "steel", (0, 0, -0.018))
     picture.shape(plate, "cylinder", (0.045, 0.15), "chrome", (0, 0, -0.18))
     base = picture.spec.worldbody
     picture.shape(base, "cylinder", (0.085, 0.08), "rig", (0, 0, -0.22))

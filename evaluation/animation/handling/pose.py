@@ -11,9 +11,9 @@ import numpy as np
 from susp_mj.names import channel_name
 from susp_mj.run import Run
 
-from .car_pose import about_x, about_y
-from .clip import at, stations_of, tyre_deflection
-from .scene import Frame
+from ..clip import at, stations_of, tyre_deflection
+from ..oscillation.pose import about_x, about_y
+from ..scene import Frame
 
 UP = np.array([0.0, 0.0, 1.0])
 """Unit vector upwards."""

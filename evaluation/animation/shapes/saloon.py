@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .body import Surface
+from .parts import Surface
 
 _CAP = 0.26
 """How far the nose and the tail are rounded in x."""

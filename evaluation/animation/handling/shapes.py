@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..colours import LIFTED, rgb
-from . import ground
-from .car_bodywork import saloon_surfaces
-from .car_shapes import outwards, wheel_assets
-from .handling_pose import Chassis, side_of
-from .picture import Picture
+from ...colours import LIFTED, rgb
+from ..oscillation.bodywork import saloon_surfaces
+from ..oscillation.shapes import outwards, wheel_assets
+from ..picture import Picture
+from ..shapes import ground
+from .pose import Chassis, side_of
 
 _GHOST = 0.32
 _GHOSTLY = ("paint", "glass", "gloss", "chrome", "lamp_glass", "tail")

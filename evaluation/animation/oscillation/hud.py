@@ -11,13 +11,13 @@ import numpy as np
 from susp_mj.names import channel_name
 from susp_mj.run import Run
 
-from ..colours import LIFTED, rgb
-from .chart import Chart
-from .clip import Clip, at, stations_of
-from .hud import Diagram, Hud
-from .layout import INK, PAPER, SOFT, Box, typeface
-from .titles import signed
-from .window import Window, lift
+from ...colours import LIFTED, rgb
+from ..chart import Chart
+from ..clip import Clip, at, stations_of
+from ..hud import Diagram, Hud
+from ..layout import INK, PAPER, SOFT, Box, typeface
+from ..titles import signed
+from ..window import Window, lift
 
 ANGLES = {"roll_angle": "roll", "pitch_angle": "pitch"}
 SIGNS = {"roll_angle": "left side up +", "pitch_angle": "nose down +"}
@@ -25,7 +25,7 @@ _RESTING = np.radians(0.01)
 _SMALL = 300.0
 
 
-class CarHud(Hud):
+class OscillationHud(Hud):
     """Everything in a frame that is not a scene, for cars with several wheels."""
 
     aside: ClassVar[float] = 170.0

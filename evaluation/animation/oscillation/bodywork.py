@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from .car_pose import Layout
-from .picture import Picture
+from ..picture import Picture
+from ..shapes import tub
+from .pose import Layout
 
 
 def _outline(layout: Layout) -> np.ndarray:
@@ -39,8 +40,6 @@ def _outline(layout: Layout) -> np.ndarray:
 
 def bodywork(picture: Picture, layout: Layout) -> None:
     """Hull with cockpit, seats, roll bar, lamps, and a bridge over each axle that carries the spring domes."""
-    from vehicles.mjcf import tub
-
     picture.material("glow", (0.98, 0.97, 0.9), 0.9, 0.9)
     picture.material("tail", (0.62, 0.05, 0.06), 0.6, 0.6)
     picture.material("leather", (0.24, 0.2, 0.18), 0.1, 0.2)
@@ -81,9 +80,7 @@ def bodywork(picture: Picture, layout: Layout) -> None:
 def saloon_surfaces(
     wheelbase: float, half_track: float, wheel_radius: float, tyre_radius: float, *, fine: bool
 ) -> dict[str, Any]:
-    """Surfaces of a closed car by material, see `vehicles.mjcf.saloon`; lengths in m."""
-    from vehicles.mjcf import tub
-
+    """Surfaces of a closed car by material, see `shapes.saloon`; lengths in m."""
     half = max(half_track + 0.165, 0.80)
     return tub.saloon(tub.Saloon(wheelbase, half, wheel_radius, tyre_radius + 0.052, (130, 56) if fine else (84, 38)))
 

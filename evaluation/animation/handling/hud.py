@@ -11,14 +11,14 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .car_hud import CarHud, smallest_load
-from .chart import Chart, Signal
-from .clip import at, features_of
-from .dial import draw_pane, draw_steering_wheel
-from .hud import Diagram
-from .layout import INK, SOFT, Box, typeface
-from .locus import Locus
-from .titles import signed
+from ..chart import Chart, Signal
+from ..clip import at, features_of
+from ..dial import draw_pane, draw_steering_wheel
+from ..hud import Diagram
+from ..layout import INK, SOFT, Box, typeface
+from ..locus import Locus
+from ..oscillation.hud import OscillationHud, smallest_load
+from ..titles import signed
 
 _SMALL = 300.0
 _LOCUS = 250.0
@@ -63,7 +63,7 @@ _LEAST = {"roll_angle": np.radians(0.5), "steering_wheel_angle": np.radians(10.0
 _STANDS = 0.1
 
 
-class HandlingHud(CarHud):
+class HandlingHud(OscillationHud):
     """Everything in a frame that is not a scene, for cars that drive freely."""
 
     aside: ClassVar[float] = 150.0

@@ -10,10 +10,10 @@ import numpy as np
 from susp_mj.names import channel_name
 from susp_mj.run import Run
 
-from . import ground
-from .clip import features_of
-from .handling_pose import Motion, side_of
-from .picture import Picture, studio, sunlight
+from ..clip import features_of
+from ..picture import Picture, studio, sunlight
+from ..shapes import ground
+from .pose import Motion, side_of
 
 TILE = 10.0
 """Spacing of the grid on the asphalt [m]."""

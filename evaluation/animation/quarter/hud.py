@@ -6,12 +6,12 @@ from typing import Any
 
 from susp_mj.run import Run
 
-from ..colours import LIFTED, rgb
-from .chart import Chart
-from .clip import at
-from .hud import Hud
-from .layout import INK, PAPER, SOFT, Box, typeface
-from .window import lift
+from ...colours import LIFTED, rgb
+from ..chart import Chart
+from ..clip import at
+from ..hud import Hud
+from ..layout import INK, PAPER, SOFT, Box, typeface
+from ..window import lift
 
 
 class QuarterHud(Hud):

@@ -11,7 +11,7 @@ import numpy as np
 from susp_mj.names import channel_name
 from susp_mj.run import Run
 
-from .clip import at, slope_at, speed_of, stations_of, wheel_height
+from ..clip import at, slope_at, speed_of, stations_of, wheel_height
 
 WHEEL_RADIUS = 0.33
 """Height of the wheel centres above the road in the design position [m]."""
@@ -146,7 +146,7 @@ def road_speed(run: Run, layout: Layout) -> float:
 
 
 @dataclass(frozen=True)
-class CarPose:
+class OscillationPose:
     """Where a run puts the car at one time.
 
     Attributes:
@@ -169,7 +169,7 @@ class CarPose:
     travelled: float
 
     @classmethod
-    def of(cls, run: Run, layout: Layout, time: float) -> CarPose:
+    def of(cls, run: Run, layout: Layout, time: float) -> OscillationPose:
         """The car of a run at a time [s]."""
         speed = road_speed(run, layout)
         return cls(

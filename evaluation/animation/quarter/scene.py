@@ -9,11 +9,11 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .clip import at, slope_at, speed_of, wheel_height
-from .quarter_shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
-from .scene import Scene, free_camera, settle
-from .style import Shot
-from .window import Window
+from ..clip import at, slope_at, speed_of, wheel_height
+from ..scene import Scene, free_camera, settle
+from ..style import Shot
+from ..window import Window
+from .shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
 
 HALF_ANGLE = 8.0
 VIEW = (2.02, 1.5)

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from .car_pose import about_x, about_y
+from ..oscillation.pose import about_x, about_y
+from ..picture import Picture, materials
+from ..scene import Frame, Scene, put
+from ..style import Shot
+from ..window import Window, lift
+from .camera import VIEWS, Follow, camera_for, inside
 from .decor import Trail, column, lift_mark
-from .handling_camera import VIEWS, Follow, camera_for, inside
-from .handling_pose import HandlingPose, Motion, about_z
-from .handling_shapes import add_car, car_materials, fade, tint_tyre
-from .handling_world import add_plates, proving_ground, surroundings
-from .picture import Picture, materials
-from .scene import Frame, Scene, put
-from .style import Shot
-from .window import Window, lift
+from .pose import HandlingPose, Motion, about_z
+from .shapes import add_car, car_materials, fade, tint_tyre
+from .world import add_plates, proving_ground, surroundings
 
 _GHOST_ROOM = 1.12
 STANDS = 1.0

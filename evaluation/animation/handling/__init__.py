@@ -1,0 +1,1 @@
+"""Cars that drive freely on the proving ground."""

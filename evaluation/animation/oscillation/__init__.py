@@ -1,0 +1,1 @@
+"""Cars with several wheels over a road that passes underneath, or on a test rig."""

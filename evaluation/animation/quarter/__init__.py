@@ -1,0 +1,1 @@
+"""One wheel with a corner of the body above it."""

@@ -1,0 +1,1 @@
+"""Triangle meshes and flat shapes for pictures; no physics uses them."""
