@@ -13,7 +13,8 @@ from susp_mj.names import channel_name
 
 from ...colours import LIFTED, rgb
 from ..layout import load_tone
-from .pose import UP, HandlingPose, Motion, about_z, side_of
+from ..rotations import about_z
+from .pose import UP, HandlingPose, Motion, side_of
 
 COLUMN = 1.15
 """Height of a load column for the highest load in the video [m]."""

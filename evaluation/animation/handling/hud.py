@@ -17,10 +17,9 @@ from ..dial import draw_pane, draw_steering_wheel
 from ..hud import Diagram
 from ..layout import INK, SOFT, Box, typeface
 from ..locus import Locus
-from ..oscillation.hud import OscillationHud, smallest_load
 from ..titles import signed
+from ..wheels_hud import WheelsHud
 
-_SMALL = 300.0
 _LOCUS = 250.0
 _MOVES = 0.5
 _NARROW = 440.0
@@ -63,7 +62,7 @@ _LEAST = {"roll_angle": np.radians(0.5), "steering_wheel_angle": np.radians(10.0
 _STANDS = 0.1
 
 
-class HandlingHud(OscillationHud):
+class HandlingHud(WheelsHud):
     """Everything in a frame that is not a scene, for cars that drive freely."""
 
     aside: ClassVar[float] = 150.0
@@ -74,12 +73,11 @@ class HandlingHud(OscillationHud):
         half = (width - square) // 2
         one, other = Box(0, left.top, half, left.height), Box(half, left.top, half, left.height)
         last = Box(2 * half, left.top, width - 2 * half, left.height)
-        loads = [(clip.run.time, smallest_load(clip.run) / 1000) for clip in self.clips]
         subject = self._subject()
         signals = self._signals(subject.quantity, subject.factor)
         return [
             Chart(signals, subject.title, self.window, one, s),
-            Chart(loads, "Smallest wheel load in kN", self.window, other, s, loads=True),
+            self.load_chart(other),
             self._locus(last),
         ]
 
@@ -125,7 +123,7 @@ class HandlingHud(OscillationHud):
         """Light panes behind the numbers and the load bars, and the steering wheel."""
         from PIL import ImageDraw
 
-        s, small = self.scale, box.height < _SMALL * self.scale
+        s, small = self.scale, self.small(box)
         left, top = box.left + 10 * s, box.top + 8 * s
         draw_pane(frame, (left, top, left + 190 * s, top + (122 if small else 194) * s), 10 * s)
         right = box.left + box.width - 8 * s
@@ -150,7 +148,7 @@ class HandlingHud(OscillationHud):
     def gauges(self, draw: Any, run: Run, box: Box, time: float) -> None:
         """Lateral acceleration, roll and gear; the steering wheel; wheel loads in the order of the wheels seen from
         above."""
-        s, small = self.scale, box.height < _SMALL * self.scale
+        s, small = self.scale, self.small(box)
         rows = self._rows(run, time)
         if small:
             text = "   ".join(
@@ -165,9 +163,7 @@ class HandlingHud(OscillationHud):
                 draw.text((box.left + 18 * s, base), name, SOFT, typeface(12.5 * s), anchor="ls")
                 draw.text((box.left + 150 * s, base), value, INK, typeface(15 * s, bold=True), anchor="rs")
                 draw.text((box.left + 154 * s, base), unit, SOFT, typeface(12 * s), anchor="ls")
-        lifted = self._loads(draw, run, box, time)
-        if lifted:
-            self.alarm(draw, box, f"LIFT  {' '.join(lifted)}")
+        self.loads(draw, run, box, time)
 
     def _rows(self, run: Run, time: float) -> list[tuple[str, str, str]]:
         """Name, value and unit of the numbers below the speed."""

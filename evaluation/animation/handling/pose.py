@@ -12,7 +12,7 @@ from susp_mj.names import channel_name
 from susp_mj.run import Run
 
 from ..clip import at, stations_of, tyre_deflection
-from ..oscillation.pose import about_x, about_y
+from ..rotations import about_x, about_y, about_z
 from ..scene import Frame
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -162,9 +162,3 @@ class Motion:
     def travelled(self) -> float:
         """Distance driven in the whole run [m]."""
         return float(np.hypot(np.diff(self.run["position_x"]), np.diff(self.run["position_y"])).sum())
-
-
-def about_z(angle: float) -> np.ndarray:
-    """(3, 3) rotation about the vertical axis; positive to the left."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])

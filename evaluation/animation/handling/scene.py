@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..oscillation.pose import about_x, about_y
 from ..picture import Picture, materials
+from ..rotations import about_x, about_y, about_z
 from ..scene import Frame, Scene, put
 from ..style import Shot
 from ..window import Window, lift
 from .camera import VIEWS, Follow, camera_for, inside
 from .decor import Trail, column, lift_mark
-from .pose import HandlingPose, Motion, about_z
+from .pose import HandlingPose, Motion
 from .shapes import add_car, car_materials, fade, tint_tyre
 from .world import add_plates, proving_ground, surroundings
 

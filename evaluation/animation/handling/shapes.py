@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from ...colours import LIFTED, rgb
-from ..oscillation.bodywork import saloon_surfaces
-from ..oscillation.shapes import outwards, wheel_assets
 from ..picture import Picture
 from ..shapes import ground
+from ..shapes.saloon import Saloon, saloon
+from ..wheels import outwards, wheel_assets
 from .pose import Chassis, side_of
 
 _GHOST = 0.32
@@ -47,7 +47,8 @@ def add_car(picture: Picture, chassis: Chassis, colour: str, prefix: str, *, gho
     picture.glossy(f"{prefix}paint", paint, 0.32, _GHOST if ghost else 1.0)
     station = next(iter(chassis.centres))
     radius, tyre = float(chassis.centres[station][2]), max(chassis.tyres.values())
-    surfaces = saloon_surfaces(chassis.wheelbase, chassis.half_track, radius, tyre, fine=fine)
+    half_width, stations = max(chassis.half_track + 0.165, 0.80), (130, 56) if fine else (84, 38)
+    surfaces = saloon(Saloon(chassis.wheelbase, half_width, radius, tyre + 0.052, stations))
     body = picture.posed(f"{prefix}body")
     if ghost:
         picture.material(f"{prefix}veil", [*paint, _GHOST], 0.2, 0.3)

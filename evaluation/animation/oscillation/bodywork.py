@@ -9,6 +9,7 @@ import numpy as np
 
 from ..picture import Picture
 from ..shapes import tub
+from ..shapes.parts import Surface, rounded_box
 from .pose import Layout
 
 
@@ -45,17 +46,15 @@ def bodywork(picture: Picture, layout: Layout) -> None:
     picture.material("leather", (0.24, 0.2, 0.18), 0.1, 0.2)
     body, half_only = picture.posed("body"), layout.one_sided
 
-    def add(
-        name: str, surface: tub.Surface, material: str, pos: Sequence[float] = (0, 0, 0), behind: float = 0.0
-    ) -> None:
-        moved = tub.Surface(surface.vertices + np.array([pos[0], pos[1] + layout.middle, pos[2]]), surface.faces)
+    def add(name: str, surface: Surface, material: str, pos: Sequence[float] = (0, 0, 0), behind: float = 0.0) -> None:
+        moved = Surface(surface.vertices + np.array([pos[0], pos[1] + layout.middle, pos[2]]), surface.faces)
         picture.mesh(body, name, tub.cut(moved, y=layout.middle - behind) if half_only else moved, material)
 
     outline = _outline(layout)
     if layout.one_axle:
         add("hull", tub.hull(outline), "paint")
         for number in range(3):
-            ballast = tub.rounded_box(0.62 - 0.05 * number, 0.72 - 0.05 * number, 0.06, 0.012)
+            ballast = rounded_box(0.62 - 0.05 * number, 0.72 - 0.05 * number, 0.06, 0.012)
             add(
                 f"ballast{number}",
                 ballast,
@@ -75,14 +74,6 @@ def bodywork(picture: Picture, layout: Layout) -> None:
         bridge = tub.arch(span, 0.45, top, foot=foot, depth=0.15, thickness=0.06, right_only=half_only)
         add(f"{name}_bridge", bridge, "dark", (x, 0, 0))
     _lamps(picture, body, layout)
-
-
-def saloon_surfaces(
-    wheelbase: float, half_track: float, wheel_radius: float, tyre_radius: float, *, fine: bool
-) -> dict[str, Any]:
-    """Surfaces of a closed car by material, see `shapes.saloon`; lengths in m."""
-    half = max(half_track + 0.165, 0.80)
-    return tub.saloon(tub.Saloon(wheelbase, half, wheel_radius, tyre_radius + 0.052, (130, 56) if fine else (84, 38)))
 
 
 def _lamps(picture: Picture, body: Any, layout: Layout) -> None:

@@ -12,6 +12,7 @@ from susp_mj.names import channel_name
 from susp_mj.run import Run
 
 from ..clip import at, slope_at, speed_of, stations_of, wheel_height
+from ..rotations import about_x, about_y
 
 WHEEL_RADIUS = 0.33
 """Height of the wheel centres above the road in the design position [m]."""
@@ -219,26 +220,6 @@ class OscillationPose:
     def coil_length(self, station: str) -> float:
         """Length of the drawn coil [m]."""
         return float(np.linalg.norm(self.strut_head(station) - self.strut_foot(station))) - self.layout.strut.seat
-
-
-def about_x(angle: float) -> np.ndarray:
-    """(3, 3) rotation about the longitudinal axis; positive lifts the left side."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[1.0, 0, 0], [0, c, -s], [0, s, c]])
-
-
-def about_y(angle: float) -> np.ndarray:
-    """(3, 3) rotation about the lateral axis; positive lowers the front."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, 0, s], [0, 1.0, 0], [-s, 0, c]])
-
-
-def upright(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """(3, 3) rotation whose z axis points from `start` to `end`, its x axis as far forward as can be."""
-    z = (end - start) / np.linalg.norm(end - start)
-    y = np.cross(z, [1.0, 0.0, 0.0])
-    y /= np.linalg.norm(y)
-    return np.column_stack([np.cross(y, z), y, z])
 
 
 def _pair(place: object) -> tuple[float, float]:

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from ..rotations import about_x, about_y, upright
 from ..scene import Frame, Scene, free_camera, put
 from ..style import Shot
 from ..window import Window
-from .pose import WHEEL_RADIUS, Layout, OscillationPose, about_x, about_y, road_speed, upright
+from .pose import WHEEL_RADIUS, Layout, OscillationPose, road_speed
 from .shapes import ARM_HEIGHT, HINGE, oscillation_spec
 
 _HALF_ANGLE = 9.0

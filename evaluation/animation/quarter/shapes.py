@@ -11,6 +11,7 @@ from susp_mj.run import Run
 from ..clip import speed_of, tyre_deflection
 from ..picture import Picture, contact_shadow, materials, studio
 from ..shapes import parts
+from ..wheels import wheel_assets
 from ..window import Window
 
 WHEEL_RADIUS = 0.33
@@ -70,14 +71,8 @@ def _wheel(picture: Picture, tyre_radius: float) -> None:
     carrier.add_site(name="coil_foot", pos=[0, STRUT, LOWER_SEAT])
     picture.mesh(carrier, "coil", parts.coil(COIL_LENGTH, 0.064, 0.0085), "spring", (0, STRUT, LOWER_SEAT))
     wheel = picture.turning(carrier, "spin")
-    for name, surface, material in (
-        ("tyre", parts.tyre(tyre_radius), "rubber"),
-        ("marks", parts.sidewall_marks(tyre_radius), "mark"),
-        ("rim", parts.rim(), "alloy"),
-        ("bolts", parts.wheel_bolts(), "dark"),
-        ("disc", parts.brake_disc(), "steel"),
-    ):
-        picture.mesh(wheel, name, surface, material)
+    for asset, material in wheel_assets(picture, "", tyre_radius):
+        picture.copy(wheel, asset, material, name=asset)
 
 
 def _road(picture: Picture, body: Any, run: Run, window: Window) -> None:

@@ -8,9 +8,6 @@ from __future__ import annotations
 import numpy as np
 
 from .parts import Surface, loft, rounded_box, surface_of, tube
-from .saloon import Saloon, saloon
-
-__all__ = ["Saloon", "Surface", "arch", "both", "cut", "hull", "lining", "roll_bar", "rounded_box", "saloon", "seat"]
 
 _END = 0.16
 _RIM = 0.07
