@@ -14,7 +14,8 @@ from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.units import Quantity
 from vehicles.mjcf import MODELS
-from vehicles.vehicle import DESIGN_LOAD, read_toml
+from vehicles.reading import read_toml
+from vehicles.vehicle import DESIGN_LOAD
 
 FOLDER = Path(__file__).parent / "cases"
 

@@ -119,7 +119,7 @@ def build(
 ) -> None:
     """Write a model as a self-contained MJCF file."""
     from vehicles.mjcf import write
-    from vehicles.vehicle import load_vehicle
+    from vehicles.reading import load_vehicle
 
     vehicle = load_vehicle(car, characteristics)
     folder = Path("vehicles/mjcf") if Path("vehicles/mjcf").is_dir() else Path()
@@ -137,7 +137,7 @@ def modes(
     """Natural frequencies, damping ratios and mode shapes at static equilibrium, friction left out."""
     from susp_mj.linear import linearise
     from vehicles.mjcf import build
-    from vehicles.vehicle import load_vehicle
+    from vehicles.reading import load_vehicle
 
     from .terminal import print_modes
 

@@ -23,7 +23,8 @@ from susp_mj.run import Run
 from susp_mj.simulation import simulate
 from susp_mj.units import to_si
 from vehicles.mjcf import HANDLING, build
-from vehicles.vehicle import Vehicle, load_vehicle
+from vehicles.reading import load_vehicle
+from vehicles.vehicle import Vehicle
 
 from .case import Case, Setting, read_manoeuvre
 

@@ -13,7 +13,8 @@ from susp_mj.description import validate
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.units import unit_of
 from vehicles.mjcf import HANDLING, K_AND_C, MODELS
-from vehicles.vehicle import DESIGN_LOAD, find_vehicle, read_toml
+from vehicles.reading import find_vehicle, read_toml
+from vehicles.vehicle import DESIGN_LOAD
 
 from .case import Case, with_film
 

@@ -98,7 +98,7 @@ def print_sheet(car: str) -> None:
 def write_car_sheet(car: str, path: Path) -> None:
     """Write the characteristic sheet of a car as one HTML file."""
     from evaluation.report import write_sheet
-    from vehicles.vehicle import find_vehicle, read_toml
+    from vehicles.reading import find_vehicle, read_toml
 
     data = read_toml(find_vehicle(car))
     write_sheet(f"Characteristics of {data.get('title', car)}", _sets(car), path, {"vehicle": find_vehicle(car).name})
@@ -106,7 +106,7 @@ def write_car_sheet(car: str, path: Path) -> None:
 
 def _sets(car: str) -> dict[str, Sequence[Characteristic]]:
     from evaluation.characteristics import characteristic
-    from vehicles.vehicle import characteristic_sets, load_vehicle
+    from vehicles.reading import characteristic_sets, load_vehicle
 
     result: dict[str, Sequence[Characteristic]] = {}
     for name in characteristic_sets(car) or {None: ""}:
@@ -166,7 +166,7 @@ def print_lists() -> None:
     from manoeuvres import ALIASES, MANOEUVRES
     from susp_mj.elements import DAMPERS, SPRINGS, TYRES
     from vehicles.mjcf import MODELS
-    from vehicles.vehicle import available_vehicles, characteristic_sets
+    from vehicles.reading import available_vehicles, characteristic_sets
 
     from .case import available_cases
 
@@ -204,7 +204,7 @@ def _inputs(model: str, rig: str | None) -> set[str]:
     """Quantities of the inputs of a model on a rig; none if it has no such rig."""
     from susp_mj.errors import InputError
     from vehicles.mjcf import build
-    from vehicles.vehicle import load_vehicle
+    from vehicles.reading import load_vehicle
 
     try:
         return {place.quantity for place in build(load_vehicle("s_class"), model, rig=rig).meaning.inputs}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
-from .vehicle import Axle, LoadCase, Vehicle, available_vehicles, load_vehicle
+from .reading import available_vehicles, load_vehicle
+from .vehicle import Axle, LoadCase, Vehicle
 
 __all__ = ["Axle", "LoadCase", "Vehicle", "available_vehicles", "load_vehicle"]

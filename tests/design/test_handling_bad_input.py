@@ -16,7 +16,7 @@ from susp_mj.elements.car import CAR_NUMERIC, HEAD, WHEEL
 from susp_mj.elements.tyres.tir import load_tyre
 from susp_mj.errors import InputError, SimulationError
 from vehicles.mjcf import build, write
-from vehicles.vehicle import FOLDER, load_vehicle
+from vehicles.reading import FOLDER, load_vehicle
 
 SALOON = (FOLDER / "s_class.toml").read_text(encoding="utf-8")
 TYRES = {

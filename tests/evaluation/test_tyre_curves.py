@@ -19,7 +19,7 @@ from susp_mj.elements import LinearContactTyre
 from susp_mj.elements.tyres import magic_formula_law as law
 from susp_mj.elements.tyres.tir import load_tyre
 from vehicles import load_vehicle
-from vehicles.vehicle import FOLDER
+from vehicles.reading import FOLDER
 
 from ..builders.comparisons import compare
 

@@ -29,7 +29,7 @@ from susp_mj.elements.tyres import slip
 from susp_mj.elements.tyres.slip import heading
 from susp_mj.elements.tyres.tir import load_tyre
 from susp_mj.errors import CallbackError, InputError
-from vehicles.vehicle import FOLDER
+from vehicles.reading import FOLDER
 
 TIR = FOLDER / "tyres"
 ANY = TypeAdapter(AnyContactTyre)

@@ -16,7 +16,7 @@ from susp_mj.elements.law import helpers
 from susp_mj.elements.tyres import magic_formula_law as law
 from susp_mj.elements.tyres import slip
 from susp_mj.elements.tyres.tir import load_tyre
-from vehicles.vehicle import FOLDER
+from vehicles.reading import FOLDER
 
 # Evaluated elsewhere from the same coefficients (pure slip by two programs), zero camber, ISO-W, no combined slip:
 # LFZO, F_z [N], kappa, alpha [rad], F_x0, F_y0, F_x, F_y [N], K_x [N], K_y [N/rad]. fmt: off

@@ -20,7 +20,7 @@ from susp_mj.elements.tyres import magic_formula_law as law_52
 from susp_mj.elements.tyres import slip
 from susp_mj.elements.tyres.magic_formula_61 import MagicFormula61Tyre
 from susp_mj.elements.tyres.tir import load_tyre
-from vehicles.vehicle import FOLDER
+from vehicles.reading import FOLDER
 
 TYRE = load_tyre(FOLDER / "tyres" / "mf61_205_60R15.tir")
 assert isinstance(TYRE, MagicFormula61Tyre)

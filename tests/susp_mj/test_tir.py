@@ -8,7 +8,7 @@ import pytest
 
 from susp_mj.elements.tyres.tir import load_tyre, read_sections
 from susp_mj.errors import InputError
-from vehicles.vehicle import FOLDER
+from vehicles.reading import FOLDER
 
 SHIPPED = FOLDER / "tyres" / "pac2002_245_40R18.tir"
 TEXT = SHIPPED.read_text(encoding="utf-8")

@@ -18,7 +18,7 @@ from susp_mj.plant import Plant
 from susp_mj.roads import Patch, Road, cosine_bump
 from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, K_AND_C, build, write
-from vehicles.vehicle import load_vehicle
+from vehicles.reading import load_vehicle
 
 from ..verification.plain_car import Driven, PlainCar
 

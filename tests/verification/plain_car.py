@@ -10,7 +10,8 @@ import numpy as np
 
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
-from vehicles.vehicle import Vehicle, load_vehicle
+from vehicles.reading import load_vehicle
+from vehicles.vehicle import Vehicle
 
 
 @dataclass(frozen=True)

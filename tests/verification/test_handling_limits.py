@@ -13,7 +13,7 @@ import pytest
 
 from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, build
-from vehicles.vehicle import load_vehicle
+from vehicles.reading import load_vehicle
 
 from .plain_car import Driven, PlainCar
 

@@ -1,0 +1,171 @@
+"""Vehicle files: found by name or path, parsed once; a set of characteristics and overrides go on top."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from susp_mj.description import validate
+from susp_mj.errors import InputError, choices
+
+from .vehicle import Vehicle
+
+FOLDER = Path(__file__).parent
+TYRES = FOLDER / "tyres"
+"""Where the tyre property files that ship lie."""
+
+
+def available_vehicles() -> list[str]:
+    """Names of the cars that come with susp_mj."""
+    return sorted(path.stem for path in FOLDER.glob("*.toml"))
+
+
+def load_vehicle(
+    name: str | Path, characteristics: str | None = None, overrides: Mapping[str, Any] | None = None
+) -> Vehicle:
+    """Read a car.
+
+    Args:
+        name: a shipped car (``"chapter3"``) or the path of a TOML file.
+        characteristics: which of the file's sets of characteristics; None takes the file's ``default``.
+        overrides: dotted path -> value as a file would have it, applied last: ``{"rear.damper.rates": [1200]}``.
+
+    Raises:
+        InputError: file, key, value, and what is allowed.
+    """
+    path = find_vehicle(name)
+    data = read_toml(path)
+    sets = data.pop("characteristics", {})
+    default = data.pop("default", "")
+    if not isinstance(sets, dict) or not all(isinstance(each, dict) for each in sets.values()):
+        raise InputError("must hold one table for each set", key="characteristics", source=path.name)
+    chosen = default if characteristics is None else characteristics
+    if chosen:
+        if chosen not in sets:
+            raise InputError(
+                f"no set '{chosen}'; {choices(sets or ['none'], chosen)}", key="characteristics", source=path.name
+            )
+        _merge(data, {key: value for key, value in sets[chosen].items() if key != "title"})
+    elif sets:
+        raise InputError(f"choose a set of characteristics: {', '.join(sets)}", key="characteristics", source=path.name)
+    for key, value in (overrides or {}).items():
+        if key.split(".")[0] in ("characteristics", "default", ""):
+            raise InputError(
+                "cannot be overridden; write the path as it stands below a set, like rear.damper.ratio",
+                key=key,
+                source=path.name,
+            )
+        set_by_path(data, key, value, source=path.name)
+    for reserved in ("name", "source"):
+        if reserved in data:
+            raise InputError("unknown key; a car is named by its file", key=reserved, source=path.name)
+    _find_tyres(data, path)
+    return validate(
+        Vehicle, {**data, "name": path.stem, "source": path.name, "characteristics": chosen}, source=path.name
+    )
+
+
+def characteristic_sets(name: str | Path) -> dict[str, str]:
+    """Names and titles of the sets of characteristics in a vehicle file; empty if it has one car only."""
+    sets = read_toml(find_vehicle(name)).get("characteristics", {})
+    if not isinstance(sets, dict) or not all(isinstance(each, dict) for each in sets.values()):
+        raise InputError("must hold one table for each set", key="characteristics", source=str(name))
+    return {key: str(value.get("title", key)) for key, value in sets.items()}
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Parse a TOML file.
+
+    Raises:
+        InputError: no such file, not readable, or not TOML (with line and column).
+    """
+    try:
+        with path.open("rb") as file:
+            return tomllib.load(file)
+    except FileNotFoundError:
+        raise InputError("no such file", source=str(path)) from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"cannot be read: {error}", source=str(path)) from None
+    except RecursionError:
+        raise InputError("is nested too deeply", source=path.name) from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"is not TOML: {error}", source=path.name) from None
+
+
+def set_by_path(data: dict[str, Any], path: str, value: Any, *, source: str) -> None:
+    """Put `value` at a dotted path into nested tables, making tables on the way; a number addresses a list's item.
+
+    Raises:
+        InputError: the path runs through something that is not a table.
+    """
+    *parents, last = path.split(".")
+    here: Any = data
+    for depth, part in enumerate(parents):
+        if isinstance(here, dict):
+            here = here.setdefault(part, {})
+        elif isinstance(here, list) and part.isdecimal() and int(part) < len(here):
+            here = here[int(part)]
+        else:
+            raise InputError(f"'{'.'.join(parents[: depth + 1])}' is not a table", key=path, source=source)
+    if isinstance(here, dict):
+        here[last] = value
+    elif isinstance(here, list) and last.isdecimal() and int(last) < len(here):
+        here[int(last)] = value
+    else:
+        raise InputError(f"'{'.'.join(parents)}' is not a table", key=path, source=source)
+
+
+def find_vehicle(name: str | Path) -> Path:
+    """Path of a shipped car or of the file given.
+
+    Raises:
+        InputError: neither exists.
+    """
+    text = str(name)
+    if text.endswith(".toml"):
+        path = Path(text)
+        if not _is_file(path):
+            raise InputError("no such file", source=text[:100])
+        return path
+    if text not in available_vehicles():
+        raise InputError(
+            f"no vehicle '{text}'; {choices(available_vehicles(), text)}, or give a .toml file", key="vehicle"
+        )
+    return FOLDER / f"{text}.toml"
+
+
+def _find_tyres(data: dict[str, Any], path: Path) -> None:
+    """Put the path of each tyre property file in place of its name: beside the vehicle file, or one that ships."""
+    for axle in ("front", "rear"):
+        tables = data.get(axle)
+        tyre = tables.get("handling_tyre") if isinstance(tables, dict) else None
+        if not isinstance(tables, dict) or not isinstance(tyre, dict) or "file" not in tyre:
+            continue
+        name = str(tyre["file"])
+        found = next((each for each in (path.parent / name, TYRES / name) if _is_file(each)), None)
+        if found is None:
+            shipped = choices(sorted(each.name for each in TYRES.glob("*.tir")), name)
+            raise InputError(
+                f"no file '{name}' beside the vehicle file; {shipped}, or give the path of a .tir file",
+                key=f"{axle}.handling_tyre.file",
+                source=path.name,
+            )
+        tables["handling_tyre"] = {**tyre, "file": str(found)}
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _merge(base: dict[str, Any], over: Mapping[str, Any]) -> None:
+    """Lay `over` onto `base`; a table that names a `kind` replaces what was there."""
+    for key, value in over.items():
+        if isinstance(value, dict) and isinstance(base.get(key), dict) and "kind" not in value:
+            _merge(base[key], value)
+        else:
+            base[key] = value
