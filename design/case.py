@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from evaluation import NUMBERS
+from evaluation.numbers import NUMBERS
 from manoeuvres import MANOEUVRES, find_manoeuvre
 from susp_mj.description import Description, validate, wrong
 from susp_mj.errors import InputError, choices

@@ -66,8 +66,9 @@ def _make_video(case: Case, comparison: Comparison, stage: Path, progress: Repor
 
 
 def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float], progress: Report) -> None:
-    from evaluation.plots import draw, save_plots
-    from evaluation.report import write_report, write_summary
+    from evaluation.pages.report import write_report
+    from evaluation.pages.summary import write_summary
+    from evaluation.plots.drawing import draw, save_plots
 
     started = time.perf_counter()
     progress("write results", 0.0)

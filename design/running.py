@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from evaluation import NUMBERS, Criterion, Number
 from evaluation.characteristics import characteristic
-from evaluation.compare import Comparison, Configuration, evaluate
-from evaluation.plots import SWEEP_QUANTITIES
+from evaluation.compare import Comparison, Configuration
+from evaluation.numbers import NUMBERS, Criterion, Number, evaluate
+from evaluation.plots.sweeps import SWEEP_QUANTITIES
 from manoeuvres import VerticalSweep
 from susp_mj.errors import InputError
 from susp_mj.linear import Linear, linearise

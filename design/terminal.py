@@ -14,10 +14,11 @@ from rich.table import Table
 from rich.text import Text
 
 from evaluation.display import quantity_text
-from evaluation.number import Number
+from evaluation.numbers.number import Number
 
 if TYPE_CHECKING:
-    from evaluation.compare import Characteristic, Comparison
+    from evaluation.characteristics import Characteristic
+    from evaluation.compare import Comparison
     from susp_mj.linear import Linear, Mode
 
 
@@ -97,7 +98,7 @@ def print_sheet(car: str) -> None:
 
 def write_car_sheet(car: str, path: Path) -> None:
     """Write the characteristic sheet of a car as one HTML file."""
-    from evaluation.report import write_sheet
+    from evaluation.pages.sheet import write_sheet
     from vehicles.reading import find_vehicle, read_toml
 
     data = read_toml(find_vehicle(car))
@@ -162,7 +163,7 @@ def _shape(mode: Mode) -> str:
 
 def print_lists() -> None:
     """Everything there is to choose from."""
-    from evaluation import NUMBERS
+    from evaluation.numbers import NUMBERS
     from manoeuvres import ALIASES, MANOEUVRES
     from susp_mj.elements import DAMPERS, SPRINGS, TYRES
     from vehicles.mjcf import MODELS

@@ -3,20 +3,99 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from susp_mj.elements import GRAVITY
 
-from .compare import Characteristic, ComponentDamper, ComponentSpring, ElementNote
 from .tyre_curves import TyreCurves, tyre_curves
 
 BEYOND_STOPS = 0.04
 """How far the samples reach beyond each stop, as a share of the travel."""
 LARGEST_SPEED = 1.5
 """Damper speeds are sampled up to this, in compression and in rebound [m/s]."""
+
+
+@dataclass(frozen=True)
+class ElementNote:
+    """Which law an element follows, for the equations of a report.
+
+    Attributes:
+        role: ``spring``, ``stops``, ``damper``, ``mount``, ``friction``, ``tyre`` or ``handling_tyre``.
+        kind: its kind, as files write it.
+        text: what its class says of itself.
+    """
+
+    role: str
+    kind: str
+    text: str
+
+
+@dataclass(frozen=True)
+class ComponentSpring:
+    """The spring itself, where its motion ratio is known; arrays in SI, between the stops.
+
+    Attributes:
+        ratio: component travel per wheel travel in the design position.
+        travel, force, rate: over the component's own travel from the design position, positive in compression.
+    """
+
+    ratio: float
+    travel: Any
+    force: Any
+    rate: Any
+
+
+@dataclass(frozen=True)
+class ComponentDamper:
+    """The damper itself, where its motion ratio is known, with the wheel in the design position; arrays in SI.
+
+    Attributes:
+        ratio: component travel per wheel travel in the design position.
+        speed, force: of the component, positive in compression; hydraulic force.
+    """
+
+    ratio: float
+    speed: Any
+    force: Any
+
+
+@dataclass(frozen=True)
+class Characteristic:
+    """Sampled characteristics of one suspension, for the F-x, rate, frequency and F-v plots; arrays in SI.
+
+    Attributes:
+        title: e.g. "rear axle".
+        deflection, spring_force, spring_rate, spring_frequency: over the travel and a little beyond, the stops included
+            in the force; rate and frequency belong to the spring alone and are not a number beyond the stops.
+        speed, damper_force: hydraulic force over speed, without mount and friction.
+        preload: [N].
+        elements: what the suspension is made of.
+        component_spring, component_damper: the same at the component, or None where no motion ratio is given.
+        tyre: curves of the tyre with slip, or None where the car has none.
+    """
+
+    title: str
+    deflection: Any
+    spring_force: Any
+    spring_rate: Any
+    spring_frequency: Any
+    speed: Any
+    damper_force: Any
+    preload: float
+    elements: Sequence[ElementNote] = ()
+    component_spring: ComponentSpring | None = None
+    component_damper: ComponentDamper | None = None
+    tyre: TyreCurves | None = None
+
+    @property
+    def stops(self) -> tuple[float, float]:
+        """Deflections [m] of the rebound and the compression stop."""
+        inside = self.deflection[np.isfinite(self.spring_rate)]
+        return float(inside[0]), float(inside[-1])
 
 
 def characteristic(title: str, axle: Any) -> Characteristic:

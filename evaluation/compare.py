@@ -8,94 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from susp_mj.errors import InputError, choices
 from susp_mj.run import Run
 
-from . import NUMBERS
-from .number import Criterion, Number
-from .tyre_curves import TyreCurves
+from .characteristics import Characteristic
+from .numbers.number import Criterion, Number
 
 if TYPE_CHECKING:
     from susp_mj.linear import Mode
-
-
-@dataclass(frozen=True)
-class ElementNote:
-    """Which law an element follows, for the equations of a report.
-
-    Attributes:
-        role: ``spring``, ``stops``, ``damper``, ``mount``, ``friction``, ``tyre`` or ``handling_tyre``.
-        kind: its kind, as files write it.
-        text: what its class says of itself.
-    """
-
-    role: str
-    kind: str
-    text: str
-
-
-@dataclass(frozen=True)
-class ComponentSpring:
-    """The spring itself, where its motion ratio is known; arrays in SI, between the stops.
-
-    Attributes:
-        ratio: component travel per wheel travel in the design position.
-        travel, force, rate: over the component's own travel from the design position, positive in compression.
-    """
-
-    ratio: float
-    travel: Any
-    force: Any
-    rate: Any
-
-
-@dataclass(frozen=True)
-class ComponentDamper:
-    """The damper itself, where its motion ratio is known, with the wheel in the design position; arrays in SI.
-
-    Attributes:
-        ratio: component travel per wheel travel in the design position.
-        speed, force: of the component, positive in compression; hydraulic force.
-    """
-
-    ratio: float
-    speed: Any
-    force: Any
-
-
-@dataclass(frozen=True)
-class Characteristic:
-    """Sampled characteristics of one suspension, for the F-x, rate, frequency and F-v plots; arrays in SI.
-
-    Attributes:
-        title: e.g. "rear axle".
-        deflection, spring_force, spring_rate, spring_frequency: over the travel and a little beyond, the stops included
-            in the force; rate and frequency belong to the spring alone and are not a number beyond the stops.
-        speed, damper_force: hydraulic force over speed, without mount and friction.
-        preload: [N].
-        elements: what the suspension is made of.
-        component_spring, component_damper: the same at the component, or None where no motion ratio is given.
-        tyre: curves of the tyre with slip, or None where the car has none.
-    """
-
-    title: str
-    deflection: Any
-    spring_force: Any
-    spring_rate: Any
-    spring_frequency: Any
-    speed: Any
-    damper_force: Any
-    preload: float
-    elements: Sequence[ElementNote] = ()
-    component_spring: ComponentSpring | None = None
-    component_damper: ComponentDamper | None = None
-    tyre: TyreCurves | None = None
-
-    @property
-    def stops(self) -> tuple[float, float]:
-        """Deflections [m] of the rebound and the compression stop."""
-        inside = self.deflection[np.isfinite(self.spring_rate)]
-        return float(inside[0]), float(inside[-1])
 
 
 @dataclass(frozen=True)
@@ -201,15 +120,3 @@ class Comparison:
             }
             for each in self.configurations
         ]
-
-
-def evaluate(run: Run, names: Sequence[str]) -> dict[str, Number]:
-    """Evaluation numbers of a run, by name.
-
-    Raises:
-        InputError: an unknown number.
-    """
-    for name in names:
-        if name not in NUMBERS:
-            raise InputError(f"no evaluation number '{name}'; {choices(NUMBERS, name)}", key="numbers")
-    return {name: NUMBERS[name](run) for name in names}

@@ -8,11 +8,11 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from . import attitude, cornering, ride, wheel_lift
 from .compare import Comparison
 from .display import quantity_text
-from .handling import drives, kind
-from .number import Evaluate
+from .numbers import attitude, cornering, ride, wheel_lift
+from .numbers.number import Evaluate
+from .numbers.turns import drives, kind
 
 ROWS: tuple[tuple[str, Evaluate], ...] = (
     ("largest lateral acceleration", cornering.lateral_acceleration_max),

@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 
 from evaluation.characteristics import characteristic
-from evaluation.report import write_sheet
+from evaluation.pages.sheet import write_sheet
 from manoeuvres import Bump
 from susp_mj import simulate
 from susp_mj.components import (

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..colours import COLOURS, LIFTED, rgb
-from ..ride import CONTACT_LOST
+from ..numbers.ride import CONTACT_LOST
 from .layout import INK, PAPER, RULE, SOFT, Box, mixed, spans, ticks, typeface
 from .window import Window
 

@@ -12,7 +12,7 @@ from susp_mj.errors import InputError
 from susp_mj.names import CORNERS, channel_name
 from susp_mj.run import Run
 
-from ..ride import CONTACT_LOST
+from ..numbers.ride import CONTACT_LOST
 
 _BODY = ("body_displacement", "body_acceleration")
 _WHEEL = ("suspension_deflection", "wheel_load", "road_height")

@@ -11,7 +11,7 @@ import numpy as np
 from susp_mj.names import channel_name
 from susp_mj.run import Run
 
-from ..ride import CONTACT_LOST
+from ..numbers.ride import CONTACT_LOST
 from .clip import features_of
 
 BEFORE, AFTER, AFTER_INPUT, LONGEST = 0.1, 1.3, 1.0, 6.5

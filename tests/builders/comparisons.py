@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from evaluation import FREQUENCY, RIDE, Criterion
 from evaluation.characteristics import characteristic
-from evaluation.compare import Claim, Comparison, Configuration, evaluate
+from evaluation.compare import Claim, Comparison, Configuration
+from evaluation.numbers import FREQUENCY, RIDE, Criterion, evaluate
 from manoeuvres import Bump
 from susp_mj import simulate
 from susp_mj.manoeuvre import Manoeuvre

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import lsim
 
-from evaluation import NUMBERS
-from evaluation.compare import Comparison, Configuration, evaluate
+from evaluation.compare import Comparison, Configuration
+from evaluation.numbers import NUMBERS, evaluate
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
 from susp_mj.names import CORNERS

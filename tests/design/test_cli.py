@@ -33,7 +33,7 @@ def script(name: str, *arguments: str, cwd: Path) -> subprocess.CompletedProcess
 
 
 def test_list_names_everything_registered():
-    from evaluation import NUMBERS
+    from evaluation.numbers import NUMBERS
     from manoeuvres import MANOEUVRES
     from susp_mj.elements import DAMPERS, SPRINGS
     from vehicles import available_vehicles

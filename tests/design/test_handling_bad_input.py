@@ -10,7 +10,7 @@ import pytest
 
 from design.case import load_case, read_manoeuvre
 from design.results import carry_out
-from evaluation import NUMBERS
+from evaluation.numbers import NUMBERS
 from susp_mj import Plant, simulate
 from susp_mj.elements.car import CAR_NUMERIC, HEAD, WHEEL
 from susp_mj.elements.tyres.tir import load_tyre

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from evaluation import attitude
+from evaluation.numbers import attitude
 from manoeuvres import LateralForce, RollAngle
 from susp_mj import Run, simulate
 from susp_mj.run import described

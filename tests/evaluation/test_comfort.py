@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from evaluation.comfort import (
+from evaluation.numbers.comfort import (
     WEIGHTINGS,
     comfort_word,
     maximum_transient_vibration,

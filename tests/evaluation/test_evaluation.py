@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from evaluation import NUMBERS, Criterion
-from evaluation.compare import evaluate
-from evaluation.frequency import amplification
+from evaluation.numbers import NUMBERS, Criterion, evaluate
+from evaluation.numbers.frequency import amplification
 from manoeuvres import VerticalSweep
 from susp_mj import InputError, Run
 from susp_mj.meaning import Input

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from evaluation import (
+from evaluation.numbers import (
     HANDLING,
     KINEMATICS,
     NUMBERS,
@@ -23,8 +23,8 @@ from evaluation import (
     transient,
     wheel_lift,
 )
-from evaluation import steering_frequency as sweep
-from evaluation.handling import averaged
+from evaluation.numbers import steering_frequency as sweep
+from evaluation.numbers.turns import averaged
 from evaluation.turning import lifting, turning_table
 from manoeuvres import (
     Acceleration,

@@ -10,9 +10,14 @@ import numpy as np
 import pytest
 
 from evaluation.colours import COLOURS, LIFTED
-from evaluation.handling_plots import RIG_CURVES, STEERED, TOGETHER, WORDS, handling_plots, shown_together
-from evaluation.plots import draw, for_page, time_plots
-from evaluation.report import write_report, write_summary
+from evaluation.pages.page import for_page
+from evaluation.pages.report import write_report
+from evaluation.pages.summary import write_summary
+from evaluation.plots.channels import STATIONS
+from evaluation.plots.drawing import draw, handling_plots
+from evaluation.plots.over_time import TOGETHER, shown_together, time_plots
+from evaluation.plots.rig import RIG_CURVES
+from evaluation.plots.steering import STEERED
 from manoeuvres import (
     MANOEUVRES,
     BrakingInTurn,
@@ -177,7 +182,7 @@ def test_a_mixture_with_another_model_is_drawn_the_common_way():
 def test_quantities_drawn_together_are_channels_of_known_manoeuvres():
     for kind, quantities in TOGETHER.items():
         assert kind in MANOEUVRES and set(quantities) <= set(QUANTITIES), kind
-    assert set(WORDS) == set(CORNERS)
+    assert set(CORNERS) <= set(STATIONS)
 
 
 def test_same_input_gives_the_same_bytes(ramp, plots):

@@ -12,16 +12,12 @@ import pytest
 from evaluation.characteristics import characteristic
 from evaluation.colours import COLOURS
 from evaluation.compare import Comparison
-from evaluation.plots import (
-    SWEEP_QUANTITIES,
-    amplification_plots,
-    characteristic_plots,
-    colour,
-    draw,
-    for_page,
-    save_plots,
-    time_plots,
-)
+from evaluation.pages.page import for_page
+from evaluation.plots.characteristics import characteristic_plots
+from evaluation.plots.drawing import draw, save_plots
+from evaluation.plots.figure import colour
+from evaluation.plots.over_time import time_plots
+from evaluation.plots.sweeps import SWEEP_QUANTITIES, amplification_plots
 from manoeuvres import VerticalSweep
 from susp_mj.elements import GRAVITY
 from susp_mj.errors import InputError

@@ -11,12 +11,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from evaluation import Criterion, Number
-from evaluation.characteristics import characteristic
-from evaluation.compare import Claim, ElementNote
+from evaluation.characteristics import ElementNote, characteristic
+from evaluation.compare import Claim
 from evaluation.display import number_text, quantity_text
-from evaluation.plots import draw
-from evaluation.report import LARGEST_VIDEO, write_report, write_sheet, write_summary
+from evaluation.numbers import Criterion, Number
+from evaluation.pages.page import LARGEST_VIDEO
+from evaluation.pages.report import write_report
+from evaluation.pages.sheet import write_sheet
+from evaluation.pages.summary import write_summary
+from evaluation.plots.drawing import draw
 from susp_mj.errors import InputError
 from vehicles import load_vehicle
 

@@ -11,10 +11,12 @@ import numpy as np
 import pytest
 
 from evaluation.characteristics import characteristic
-from evaluation.plots import characteristic_plots, draw
-from evaluation.report import write_report, write_sheet
+from evaluation.pages.report import write_report
+from evaluation.pages.sheet import write_sheet
+from evaluation.plots.characteristics import characteristic_plots
+from evaluation.plots.drawing import draw
+from evaluation.plots.tyres import tyre_plots
 from evaluation.tyre_curves import LOADS, tyre_curves
-from evaluation.tyre_plots import tyre_plots
 from susp_mj.elements import LinearContactTyre
 from susp_mj.elements.tyres import magic_formula_law as law
 from susp_mj.elements.tyres.tir import load_tyre

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from evaluation.characteristics import characteristic
-from evaluation.plots import characteristic_plots
-from evaluation.report import write_sheet
+from evaluation.pages.sheet import write_sheet
+from evaluation.plots.characteristics import characteristic_plots
 from susp_mj import InputError
 from susp_mj.components import (
     BlowOff,

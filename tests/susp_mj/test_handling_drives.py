@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from evaluation import NUMBERS, braking, cornering, course, kinematics, transient
-from evaluation.handling import deviation, followed
-from evaluation.steering_frequency import steering_response
+from evaluation.numbers import NUMBERS, braking, cornering, course, kinematics, transient
+from evaluation.numbers.steering_frequency import steering_response
+from evaluation.numbers.turns import deviation, followed
 from manoeuvres import (
     Acceleration,
     Braking,

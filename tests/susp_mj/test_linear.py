@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from evaluation.frequency import amplification
+from evaluation.numbers.frequency import amplification
 from manoeuvres import VerticalSweep
 from susp_mj import InputError, simulate
 from susp_mj.linear import linearise

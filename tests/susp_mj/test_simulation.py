@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 import numpy as np
 import pytest
 
-from evaluation.ride import stop_hits
+from evaluation.numbers.ride import stop_hits
 from manoeuvres import Bump, RoadStep
 from susp_mj import InputError, Manoeuvre, Plant, SimulationError, simulate, simulate_many
 from susp_mj.units import PositiveTime

@@ -9,9 +9,9 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .handling import drives, first, followed, inner, kind, lasting, missing
 from .number import Number
 from .ride import CONTACT_LOST
+from .turns import drives, first, followed, inner, kind, lasting, missing
 
 TURNING = 1.0
 """Lateral acceleration [m/s²] from which on a wheel is an inner one."""

@@ -8,8 +8,8 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .handling import FIT, RIG, SLOWLY_TIGHTENED, drives, followed, kind, tightening
 from .number import Number
+from .turns import FIT, RIG, SLOWLY_TIGHTENED, drives, followed, kind, tightening
 
 GRAVITY = 9.81
 _LAST = 0.5  # s; a car that drives freely is held in a turn if nothing changes for this long

@@ -12,8 +12,8 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .handling import axle_load, distance, drives, fact, first, kind, missing, parameter
 from .number import Number
+from .turns import axle_load, distance, drives, fact, first, kind, missing, parameter
 
 BRAKED = {"braking": "start", "split_mu": "start", "braking_in_turn": "brake_start"}
 """Manoeuvre that brakes -> its parameter that says when."""

@@ -11,8 +11,8 @@ import numpy as np
 from susp_mj.run import Run
 
 from .braking import sideways_from
-from .handling import deviation, drives, fact, first, kind, missing, parameter
 from .number import Number
+from .turns import deviation, drives, fact, first, kind, missing, parameter
 
 DISTURBED = ("crosswind", "cross_slope")
 """Manoeuvres that push a car aside that shall go straight on."""

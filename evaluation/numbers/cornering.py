@@ -11,8 +11,8 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .handling import FIT, SLOWLY_TIGHTENED, drives, fact, followed, load_transfer, missing, tightening
 from .number import Number
+from .turns import FIT, SLOWLY_TIGHTENED, drives, fact, followed, load_transfer, missing, tightening
 
 _LEAST = 0.5  # m/s²; less is no turn
 

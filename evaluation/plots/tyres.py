@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .figures import MUTED, PANEL, PAPER, colour, draw_line, draw_svg, label_axes, make_panels
+from ..colours import MUTED, PAPER
+from .figure import PANEL, colour, draw_line, draw_svg, label_axes, make_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from .compare import Characteristic
-    from .tyre_curves import TyreCurves
+    from ..characteristics import Characteristic
+    from ..tyre_curves import TyreCurves
 
 _ROOM = 0.26
 """Room for the names of the loads, as a share of the width."""

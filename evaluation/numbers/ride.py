@@ -14,8 +14,8 @@ import numpy as np
 from susp_mj.names import QUANTITIES
 from susp_mj.run import Run
 
-from .handling import RIG, drives, kind, stations_of
 from .number import Number
+from .turns import RIG, drives, kind, stations_of
 
 SETTLED_BAND = 0.05
 """Half-width of the settling band, as a share of the largest departure from the final value."""

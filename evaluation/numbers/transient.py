@@ -14,8 +14,8 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .handling import drives, first, kind, missing, parameter
 from .number import Number
+from .turns import drives, first, kind, missing, parameter
 
 REACHED = 0.9
 """Share of the steady state at which a response counts as there."""

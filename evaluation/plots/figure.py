@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .colours import COLOURS
+from ..colours import COLOURS, GRID, INK, MUTED, PAPER
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-INK, MUTED, GRID, PAPER = "#24292f", "#6b7480", "#dfe3e8", "#ffffff"
 FONTS = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 LINE_STYLES = ("-", "--", ":")
 """The colours repeat after eight configurations, then the line style changes."""
@@ -171,6 +170,13 @@ def stop_lines(panel: Axes, rebound: float, compression: float, *, horizontal: b
         panel.set_ylim(min(low, rebound - margin), max(high, compression + margin))
 
 
+def zero_line(panel: Axes) -> None:
+    """A thin line at zero, where the panel shows both signs."""
+    low, high = panel.get_ylim()
+    if low < 0 < high:
+        panel.axhline(0, color=MUTED, linewidth=0.6, zorder=1.5)
+
+
 def draw_line(panel: Axes, order: int, x: np.ndarray, y: np.ndarray) -> None:
     """One configuration's line; where it hides an equal one it is dashed, so that both are seen."""
     style: Any = line_style(order)
@@ -219,6 +225,13 @@ def thinned(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarra
     )
     keep = np.unique(np.concatenate([[0], extremes.ravel(), [len(values) - 1]]))
     return time[keep], values[keep]
+
+
+def thinned_way(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A line through a plane with fewer points, evenly left out, both ends kept."""
+    every = max(len(x) // 800, 1)
+    keep = np.unique(np.append(np.arange(0, len(x), every), len(x) - 1))
+    return x[keep], y[keep]
 
 
 def spans(time: np.ndarray, where: np.ndarray) -> Iterator[tuple[float, float]]:

@@ -18,10 +18,10 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .display import quantity_text
+from ..display import quantity_text
 from .frequency import deconvolved
-from .handling import drives, missing
 from .number import Number
+from .turns import drives, missing
 
 SEGMENT = 2.0
 """Length of a segment of Welch's method, in periods of the lowest frequency."""

@@ -14,8 +14,8 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .handling import RIG, fact, kind, missing, parameter, slope, stations_of
 from .number import Number
+from .turns import RIG, fact, kind, missing, parameter, slope, stations_of
 
 TRAVEL = 0.02
 """Travel to both sides of the design position within which slopes are fitted [m]."""

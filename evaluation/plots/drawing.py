@@ -1,0 +1,73 @@
+"""Plots as SVG text: all configurations on one axis, each in its fixed colour, in engineers' units.
+
+matplotlib is imported when the first plot is drawn. The same input gives the same bytes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from susp_mj.files import write_text
+
+from ..numbers.turns import RIG, SLOWLY_TIGHTENED, drives, kind
+from .channels import HANDLING
+from .characteristics import characteristic_plots
+from .ground import acceleration_plots, course_plots
+from .over_time import axle_load_plots, time_plots, together_plots
+from .rig import rig_plots
+from .steering import steering_plots
+from .sweeps import amplification_plots
+from .turns import turn_plots
+from .tyres import tyre_plots
+
+if TYPE_CHECKING:
+    from ..compare import Comparison
+
+
+def draw(comparison: Comparison) -> dict[str, str]:
+    """Every plot of a comparison as SVG text, by name: handling, amplification of sweeps, over time, characteristics.
+
+    Those of the tyres with slip are drawn for the model that rolls on them.
+    """
+    sets = {each.name: each.characteristics for each in comparison.configurations}
+    rolling = any(each.run.meta.get("model") == HANDLING for each in comparison.configurations)
+    return {
+        **handling_plots(comparison),
+        **amplification_plots(comparison),
+        **time_plots(comparison),
+        **characteristic_plots(sets),
+        **(tyre_plots(sets) if rolling else {}),
+    }
+
+
+def save_plots(comparison: Comparison, folder: str | Path, plots: Mapping[str, str] | None = None) -> list[Path]:
+    """Write every plot as ``<name>.svg``.
+
+    Args:
+        plots: what `draw` returned, if it was drawn before.
+
+    Raises:
+        InputError: the folder cannot be written.
+    """
+    drawn = draw(comparison) if plots is None else plots
+    return [write_text(Path(folder) / f"{name}.svg", svg) for name, svg in drawn.items()]
+
+
+def handling_plots(comparison: Comparison) -> dict[str, str]:
+    """Plots of runs of a car that drives freely or stands on the kinematics rig, as SVG text by name; empty for other
+    models."""
+    driven = [each for each in comparison.configurations if drives(each.run) or kind(each.run) == RIG]
+    if len(driven) < len(comparison.configurations) or not driven:
+        return {}
+    if kind(driven[0].run) == RIG:
+        return rig_plots(driven)
+    return {
+        **(turn_plots(driven) if kind(driven[0].run) in SLOWLY_TIGHTENED else {}),
+        **course_plots(driven),
+        **steering_plots(driven),
+        **together_plots(driven),
+        **axle_load_plots(driven),
+        **acceleration_plots(driven),
+    }
