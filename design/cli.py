@@ -100,11 +100,14 @@ def show(
     ] = None,
 ) -> None:
     """Show a car's characteristics: key values here, curves in the sheet."""
+    from vehicles.reading import VehicleFile
+
     from .terminal import print_sheet, write_car_sheet
 
-    print_sheet(car)
+    file = VehicleFile.open(car)
+    print_sheet(file)
     if out is not None:
-        write_car_sheet(car, out)
+        write_car_sheet(file, out)
         typer.echo(f"sheet: {out}")
 
 

@@ -13,7 +13,7 @@ from susp_mj.description import validate
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.units import unit_of
 from vehicles.mjcf import HANDLING, K_AND_C, MODELS
-from vehicles.reading import find_vehicle, read_toml
+from vehicles.reading import VehicleFile
 from vehicles.vehicle import DESIGN_LOAD
 
 from .case import Case, with_film
@@ -73,8 +73,7 @@ def _default_load(kind: str, vehicle: str) -> str:
     """The test load of a car that drives, if it has one; the design position otherwise."""
     if default_model(kind) != HANDLING:
         return DESIGN_LOAD
-    loads = read_toml(find_vehicle(vehicle)).get("loads", {})
-    return TEST_LOAD if isinstance(loads, dict) and TEST_LOAD in loads else DESIGN_LOAD
+    return TEST_LOAD if TEST_LOAD in VehicleFile.open(vehicle).loads else DESIGN_LOAD
 
 
 def _title(kind: str, settings: Sequence[dict[str, Any]]) -> str:

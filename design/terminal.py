@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from evaluation.characteristics import Characteristic
     from evaluation.compare import Comparison
     from susp_mj.linear import Linear, Mode
+    from vehicles.reading import VehicleFile
 
 
 def print_comparison(comparison: Comparison) -> None:
@@ -75,9 +76,9 @@ def print_claims(comparison: Comparison) -> None:
     _console().print(table)
 
 
-def print_sheet(car: str) -> None:
+def print_sheet(car: VehicleFile) -> None:
     """Key values of every set of characteristics of a car."""
-    table = Table(title=f"Characteristics of {car}, effective at the wheel", box=SIMPLE_HEAD, title_justify="left")
+    table = Table(title=f"Characteristics of {car.name}, effective at the wheel", box=SIMPLE_HEAD, title_justify="left")
     headings = (
         "set",
         "axle",
@@ -96,22 +97,19 @@ def print_sheet(car: str) -> None:
     _console().print(table)
 
 
-def write_car_sheet(car: str, path: Path) -> None:
+def write_car_sheet(car: VehicleFile, path: Path) -> None:
     """Write the characteristic sheet of a car as one HTML file."""
     from evaluation.pages.sheet import write_sheet
-    from vehicles.reading import find_vehicle, read_toml
 
-    data = read_toml(find_vehicle(car))
-    write_sheet(f"Characteristics of {data.get('title', car)}", _sets(car), path, {"vehicle": find_vehicle(car).name})
+    write_sheet(f"Characteristics of {car.title}", _sets(car), path, {"vehicle": car.path.name})
 
 
-def _sets(car: str) -> dict[str, Sequence[Characteristic]]:
+def _sets(car: VehicleFile) -> dict[str, Sequence[Characteristic]]:
     from evaluation.characteristics import characteristic
-    from vehicles.reading import characteristic_sets, load_vehicle
 
     result: dict[str, Sequence[Characteristic]] = {}
-    for name in characteristic_sets(car) or {None: ""}:
-        vehicle = load_vehicle(car, name)
+    for name in car.sets or [None]:
+        vehicle = car.vehicle(name)
         axles = [axle for axle in ("front", "rear") if getattr(vehicle, axle) is not None]
         result[name or vehicle.name] = [characteristic(f"{axle} axle", vehicle.axle(axle)) for axle in axles]
     return result
@@ -167,12 +165,12 @@ def print_lists() -> None:
     from manoeuvres import ALIASES, MANOEUVRES
     from susp_mj.elements import DAMPERS, SPRINGS, TYRES
     from vehicles.mjcf import MODELS
-    from vehicles.reading import available_vehicles, characteristic_sets
+    from vehicles.reading import VehicleFile, available_vehicles
 
     from .case import available_cases
 
     german = {name: alias for alias, name in ALIASES.items()}
-    cars = {name: ", ".join(characteristic_sets(name)) for name in available_vehicles()}
+    cars = {name: ", ".join(VehicleFile.open(name).sets) for name in available_vehicles()}
     first_lines = {
         name: _first_line(kind) + (f" ({german[name]})" if name in german else "") for name, kind in MANOEUVRES.items()
     }

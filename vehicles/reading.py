@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
+from copy import deepcopy
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +24,90 @@ def available_vehicles() -> list[str]:
     return sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
+@dataclass(frozen=True)
+class VehicleFile:
+    """A vehicle file, opened and parsed once.
+
+    Attributes:
+        path: of the file; its name without ending is the car's.
+        tables: what all sets of characteristics share, as the file has it.
+        sets: each set of characteristics as the file has it; none if the file has one car only.
+        default: name of the set that is taken where none is asked for; empty if the file names none.
+    """
+
+    path: Path
+    tables: Mapping[str, Any]
+    sets: Mapping[str, Mapping[str, Any]]
+    default: str
+
+    @classmethod
+    def open(cls, name: str | Path) -> VehicleFile:
+        """The file of a shipped car (``"chapter3"``), or the one at a path.
+
+        Raises:
+            InputError: no such car or file, not TOML, sets that are no tables, or a default that is no set.
+        """
+        path = _find(name)
+        tables = read_toml(path)
+        sets, default = tables.pop("characteristics", {}), tables.pop("default", "")
+        if not isinstance(sets, dict) or not all(isinstance(each, dict) for each in sets.values()):
+            raise InputError("must hold one table for each set", key="characteristics", source=path.name)
+        if default != "" and default not in list(sets):
+            raise InputError(
+                f"no set '{default}'; {choices(sets or ['none'], default)}", key="default", source=path.name
+            )
+        return cls(path, tables, sets, default)
+
+    @property
+    def name(self) -> str:
+        """Name of the car."""
+        return self.path.stem
+
+    @property
+    def title(self) -> str:
+        """The car in one line; its name if the file has none."""
+        return str(self.tables.get("title", self.name))
+
+    @property
+    def loads(self) -> list[str]:
+        """Names of the load cases."""
+        loads = self.tables.get("loads", {})
+        return list(loads) if isinstance(loads, dict) else []
+
+    def vehicle(self, characteristics: str | None = None, overrides: Mapping[str, Any] | None = None) -> Vehicle:
+        """The car with one set of characteristics; arguments and errors as for `load_vehicle`."""
+        chosen = self._chosen(characteristics)
+        tables = deepcopy({**self.tables})
+        _merge(tables, deepcopy({key: value for key, value in self.sets.get(chosen, {}).items() if key != "title"}))
+        for key, value in (overrides or {}).items():
+            self._override(tables, key, value)
+        for reserved in ("name", "source"):
+            if reserved in tables:
+                raise InputError("unknown key; a car is named by its file", key=reserved, source=self.path.name)
+        _find_tyres(tables, self.path)
+        here = {"name": self.name, "source": self.path.name, "characteristics": chosen}
+        return validate(Vehicle, tables | here, source=self.path.name)
+
+    def _chosen(self, asked: str | None) -> str:
+        """Name of the set asked for, or of the default one; empty if the file has one car only."""
+        chosen = self.default if asked is None else asked
+        if not chosen and self.sets:
+            raise InputError(f"{self.path.name} has several sets; {choices(self.sets)}", key="characteristics")
+        if chosen and chosen not in self.sets:
+            known = choices(self.sets or ["none"], chosen)
+            raise InputError(f"{self.path.name} has no set '{chosen}'; {known}", key="characteristics")
+        return chosen
+
+    def _override(self, tables: dict[str, Any], key: str, value: Any) -> None:
+        if key.split(".", maxsplit=1)[0] in ("characteristics", "default", ""):
+            raise InputError(
+                "cannot be overridden; write the path as it stands below a set, like rear.damper.ratio",
+                key=key,
+                source=self.path.name,
+            )
+        _set_by_path(tables, key, value, source=self.path.name)
+
+
 def load_vehicle(
     name: str | Path, characteristics: str | None = None, overrides: Mapping[str, Any] | None = None
 ) -> Vehicle:
@@ -35,44 +121,7 @@ def load_vehicle(
     Raises:
         InputError: file, key, value, and what is allowed.
     """
-    path = find_vehicle(name)
-    data = read_toml(path)
-    sets = data.pop("characteristics", {})
-    default = data.pop("default", "")
-    if not isinstance(sets, dict) or not all(isinstance(each, dict) for each in sets.values()):
-        raise InputError("must hold one table for each set", key="characteristics", source=path.name)
-    chosen = default if characteristics is None else characteristics
-    if chosen:
-        if chosen not in sets:
-            raise InputError(
-                f"no set '{chosen}'; {choices(sets or ['none'], chosen)}", key="characteristics", source=path.name
-            )
-        _merge(data, {key: value for key, value in sets[chosen].items() if key != "title"})
-    elif sets:
-        raise InputError(f"choose a set of characteristics: {', '.join(sets)}", key="characteristics", source=path.name)
-    for key, value in (overrides or {}).items():
-        if key.split(".")[0] in ("characteristics", "default", ""):
-            raise InputError(
-                "cannot be overridden; write the path as it stands below a set, like rear.damper.ratio",
-                key=key,
-                source=path.name,
-            )
-        set_by_path(data, key, value, source=path.name)
-    for reserved in ("name", "source"):
-        if reserved in data:
-            raise InputError("unknown key; a car is named by its file", key=reserved, source=path.name)
-    _find_tyres(data, path)
-    return validate(
-        Vehicle, {**data, "name": path.stem, "source": path.name, "characteristics": chosen}, source=path.name
-    )
-
-
-def characteristic_sets(name: str | Path) -> dict[str, str]:
-    """Names and titles of the sets of characteristics in a vehicle file; empty if it has one car only."""
-    sets = read_toml(find_vehicle(name)).get("characteristics", {})
-    if not isinstance(sets, dict) or not all(isinstance(each, dict) for each in sets.values()):
-        raise InputError("must hold one table for each set", key="characteristics", source=str(name))
-    return {key: str(value.get("title", key)) for key, value in sets.items()}
+    return VehicleFile.open(name).vehicle(characteristics, overrides)
 
 
 def read_toml(path: Path) -> dict[str, Any]:
@@ -94,7 +143,7 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError(f"is not TOML: {error}", source=path.name) from None
 
 
-def set_by_path(data: dict[str, Any], path: str, value: Any, *, source: str) -> None:
+def _set_by_path(data: dict[str, Any], path: str, value: Any, *, source: str) -> None:
     """Put `value` at a dotted path into nested tables, making tables on the way; a number addresses a list's item.
 
     Raises:
@@ -117,7 +166,7 @@ def set_by_path(data: dict[str, Any], path: str, value: Any, *, source: str) -> 
         raise InputError(f"'{'.'.join(parents)}' is not a table", key=path, source=source)
 
 
-def find_vehicle(name: str | Path) -> Path:
+def _find(name: str | Path) -> Path:
     """Path of a shipped car or of the file given.
 
     Raises:

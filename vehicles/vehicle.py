@@ -175,7 +175,7 @@ class Vehicle(Description):
         axle: Axle | None = getattr(self, name) if name in ("front", "rear") else None
         if axle is None:
             there = [each for each in ("front", "rear") if getattr(self, each) is not None]
-            raise InputError(f"no axle '{name}'; {choices(there)}", key="axle", source=self.source)
+            raise InputError(f"{self.source} has no axle '{name}'; {choices(there)}", key="axle")
         corner = self.corner_mass(name, DESIGN_LOAD)
         spring = self._settled(Spring.at_preload, axle.spring, corner * GRAVITY, f"{name}.spring")
         tyre = axle.tyre
@@ -202,7 +202,7 @@ class Vehicle(Description):
             InputError: no such load case.
         """
         if name not in self.loads:
-            raise InputError(f"no load case '{name}'; {choices(self.loads, name)}", key="load", source=self.source)
+            raise InputError(f"{self.source} has no load case '{name}'; {choices(self.loads, name)}", key="load")
         return self.loads[name]
 
     def handling_needs(self) -> list[str]:

@@ -116,7 +116,7 @@ def test_a_vehicle_file_beside_the_case_is_found(tmp_path):
         (
             'characteristics = "linear"',
             'characteristics = "linaer"',
-            ["chapter3.toml: characteristics: ", "did you mean 'linear'"],
+            ["mine.toml: configuration.0.characteristics: chapter3.toml has no set 'linaer'; did you mean 'linear'"],
         ),
         ('name = "b"', 'name = "a"', ["mine.toml: configuration: ", "'a' names two configurations"]),
         (
@@ -125,8 +125,16 @@ def test_a_vehicle_file_beside_the_case_is_found(tmp_path):
             ["mine.toml: configuration: ", "'A' names two configurations", "'a' is too much like it"],
         ),
         ('duration = "1 s"', "duration = 1e9", ["mine.toml: manoeuvre.duration: ", "too long", "10000 s"]),
-        ('name = "b"', 'name = "b"\nload = "heavy"', ["chapter3.toml: load: ", "heavy", "ko"]),
-        ('name = "b"', 'name = "b"\naxle = "front"', ["chapter3.toml: axle: ", "front", "rear"]),
+        (
+            'name = "b"',
+            'name = "b"\nload = "heavy"',
+            ["mine.toml: configuration.1.load: chapter3.toml has no load case 'heavy'; choose ko"],
+        ),
+        (
+            'name = "b"',
+            'name = "b"\naxle = "front"',
+            ["mine.toml: configuration.1.axle: chapter3.toml has no axle 'front'; choose rear"],
+        ),
         ('["1200 N s/m"]', '["-5 N s/m"]', ["chapter3.toml: rear.damper.rates.0: ", "-5", "greater than 0"]),
         ('"rear.damper.rates"', '"rear.dampr.rates"', ["chapter3.toml: rear.dampr: ", "did you mean 'damper'"]),
         ('max = "5 m/s²"', 'max = "5 m"', ["mine.toml: criteria.body_acceleration_max.max: ", "'5 m'", "m/s²"]),

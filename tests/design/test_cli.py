@@ -74,8 +74,14 @@ def test_strict_passes_when_criteria_are_met(tmp_path):
         (("run", "no_such.toml"), ["no_such.toml: no such file"]),
         (("show", "s_klass"), ["did you mean 's_class'"]),
         (("build", "chapter3", "-m", "quarter"), ["model: no model 'quarter'", "quarter_2dof"]),
-        (("build", "s_class", "-m", "quarter_2dof", "--load", "heavy"), ["s_class.toml: load", "empty"]),
-        (("build", "s_class", "-m", "quarter_2dof", "--axle", "middle"), ["s_class.toml: axle", "front, rear"]),
+        (
+            ("build", "s_class", "-m", "quarter_2dof", "--load", "heavy"),
+            ["load: s_class.toml has no load case", "empty"],
+        ),
+        (
+            ("build", "s_class", "-m", "quarter_2dof", "--axle", "middle"),
+            ["axle: s_class.toml has no axle", "front, rear"],
+        ),
     ],
 )
 def test_bad_input_is_one_line_and_exit_code_2(tmp_path, arguments, parts):
