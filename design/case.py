@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, model_validator
 
+from evaluation.animation.cameras import CAMERAS
+from evaluation.animation.style import LAYOUTS, QUALITIES
 from evaluation.numbers import NUMBERS
 from manoeuvres import MANOEUVRES, find_manoeuvre
-from susp_mj.description import Description, validate, wrong
+from susp_mj.description import Description, one_of, validate, wrong
 from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.units import Quantity
@@ -60,18 +62,18 @@ class Setting(Description):
 
 
 class Film(Description):
-    """How a case's video is drawn; see `evaluation.animation.render_video`.
+    """How a case's video is drawn; see `evaluation.animation.render.render_video`.
 
     Attributes:
-        camera: ``chase``, ``front`` or ``side`` of a car that drives freely; by default what suits the manoeuvre.
-        layout: ``side_by_side``, or ``ghost``: cars that drive freely in one scene, the second translucent.
-        quality: ``draft`` or ``fine``; by default a draft of cars that drive freely, fine pictures of everything else.
+        camera: one of `CAMERAS` for a car that drives freely; by default what suits the manoeuvre.
+        layout: one of `LAYOUTS`.
+        quality: one of `QUALITIES`; by default a draft of cars that drive freely, fine pictures of everything else.
         playback: seconds of the run per second of video.
     """
 
-    camera: Literal["chase", "front", "side"] | None = None
-    layout: Literal["side_by_side", "ghost"] = "side_by_side"
-    quality: Literal["draft", "fine"] | None = None
+    camera: Annotated[str, one_of(CAMERAS)] | None = None
+    layout: Annotated[str, one_of(LAYOUTS)] = "side_by_side"
+    quality: Annotated[str, one_of(QUALITIES)] | None = None
     playback: Annotated[float, Quantity("", gt=0)] | None = None
 
 

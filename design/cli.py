@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from evaluation.animation.cameras import offered
 from susp_mj.errors import InputError, SuspMjError
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def run(
     case: Annotated[str, typer.Argument(help="Case file, or the name of a shipped case ('susp-mj list').")],
     out: Annotated[Path | None, typer.Option("--out", "-o", help="Folder for the results; default out/CASE.")] = None,
     video: Video = False,
-    camera: Annotated[str | None, typer.Option(help="Of a driving car: chase, front or side.")] = None,
+    camera: Annotated[str | None, typer.Option(help=f"Of a driving car: {offered()}.")] = None,
     ghost: Annotated[
         bool, typer.Option("--ghost", help="Two driving cars in one scene, the second translucent.")
     ] = False,
@@ -283,7 +284,7 @@ def _require_video() -> None:
 
 
 def _video_obstacle() -> str | None:
-    from evaluation.animation import can_render
+    from evaluation.animation.render import can_render
 
     return can_render()
 

@@ -67,7 +67,7 @@ def _compiler_cache() -> Finding:
 
 
 def _rendering() -> Finding:
-    from evaluation.animation import can_render
+    from evaluation.animation.render import can_render
 
     obstacle = can_render()
     return Finding("offscreen rendering", "works" if obstacle is None else "not available", obstacle)

@@ -57,7 +57,8 @@ def carry_out(
 
 
 def _make_video(case: Case, comparison: Comparison, stage: Path, progress: Report) -> str:
-    from evaluation.animation import Clip, render_video
+    from evaluation.animation.clip import Clip
+    from evaluation.animation.render import render_video
 
     film = case.film.model_dump()
     film["quality"] = film["quality"] or ("draft" if case.model == HANDLING else "fine")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from evaluation.animation.cameras import offered
 from manoeuvres import MANOEUVRES
 from manoeuvres.driving import Driving
 from susp_mj.description import validate
@@ -127,9 +128,7 @@ def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
         "--out", "-o", type=Path, default=Path("out") / kind, help=f"folder for the results (default out/{kind})"
     )
     parser.add_argument("--video", action="store_true", help="also render an animation")
-    parser.add_argument(
-        "--camera", choices=("chase", "front", "side"), help="of a driving car (default: what suits the manoeuvre)"
-    )
+    parser.add_argument("--camera", help=f"of a driving car: {offered()} (default: what suits the manoeuvre)")
     parser.add_argument("--ghost", action="store_true", help="two driving cars in one scene")
     parser.add_argument("--fine", action="store_true", help="finer pictures of driving cars")
     group = parser.add_argument_group("parameters", "a number in SI, or a text with its unit like '80 mm'")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
 from .errors import InputError, choices
@@ -34,6 +35,17 @@ class Description(BaseModel):
 def wrong(message: str, key: str = "") -> PydanticCustomError:
     """Error to raise inside a validator; `key` names the field below the object being validated."""
     return PydanticCustomError("wrong", "{text}", {"text": message, "key": key})
+
+
+def one_of(names: Collection[str]) -> AfterValidator:
+    """A text that must be one of some names; the error shows those that are near."""
+
+    def known(name: str) -> str:
+        if name not in names:
+            raise wrong(f"'{name}' unknown; {choices(names, name)}")
+        return name
+
+    return AfterValidator(known)
 
 
 def validate(kind: type[Described], data: Any, *, source: str = "", key: str = "") -> Described:

@@ -10,10 +10,3 @@ how fine; `film` puts the frames together, and `render` orders the film from thi
 another `Scene` and another `Hud`, entered in `film.KINDS`; what another manoeuvre puts on the road is another entry in
 `handling.world`.
 """
-
-from __future__ import annotations
-
-from .clip import Clip
-from .render import can_render, render_video
-
-__all__ = ["Clip", "can_render", "render_video"]

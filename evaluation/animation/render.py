@@ -46,9 +46,9 @@ def render_video(
         size: (width, height) [px], both even.
         fps: frames per second of the video.
         playback: seconds of the run per second of video; None chooses slow motion that suits the runs.
-        camera: ``chase``, ``front`` or ``side`` of a car that drives freely; None chooses what suits the manoeuvre.
-        layout: ``side_by_side``, or ``ghost`` for cars that drive freely: in one scene, all but the first translucent.
-        quality: ``fine``, or ``draft``: coarser shapes and jagged edges, twice as fast.
+        camera: one of `CAMERAS`, for cars that drive freely; None chooses what suits the manoeuvre.
+        layout: one of `LAYOUTS`; ``ghost`` is for cars that drive freely.
+        quality: one of `QUALITIES`.
         progress: called with the fraction done.
 
     Raises:

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from susp_mj.errors import InputError, choices
 
+from .cameras import CAMERAS
 from .clip import Clip, kind_of
 
-CAMERAS = ("chase", "front", "side")
-"""Behind the car, ahead of it on the inside of the bend, beside it."""
-LAYOUTS = ("side_by_side", "ghost")
-"""A scene for each configuration, or one scene in which all but the first are translucent."""
-QUALITIES = ("draft", "fine")
+LAYOUTS = {
+    "side_by_side": "a scene for each configuration",
+    "ghost": "one scene, all but the first configuration translucent",
+}
+QUALITIES = {
+    "draft": "coarse shapes and jagged edges, twice as fast",
+    "fine": "fine shapes and smooth edges",
+}
 MOST_GHOSTS = 2
 """Configurations that one scene can show."""
 
@@ -25,12 +29,25 @@ class Style:
     Attributes:
         camera: one of `CAMERAS`; None chooses what suits the manoeuvre.
         layout: one of `LAYOUTS`.
-        quality: ``draft`` draws coarser shapes with jagged edges, twice as fast as ``fine``.
+        quality: one of `QUALITIES`.
+
+    Raises:
+        InputError: an unknown name.
     """
 
     camera: str | None = None
     layout: str = "side_by_side"
     quality: str = "fine"
+
+    def __post_init__(self) -> None:
+        offered: dict[str, tuple[str | None, Collection[str]]] = {
+            "camera": (self.camera, CAMERAS),
+            "layout": (self.layout, LAYOUTS),
+            "quality": (self.quality, QUALITIES),
+        }
+        for key, (name, names) in offered.items():
+            if name is not None and name not in names:
+                raise InputError(f"'{name}' unknown; {choices(names, name)}", key=key, source="video")
 
     @property
     def fine(self) -> bool:
@@ -46,15 +63,8 @@ class Style:
         """Whether these clips can be drawn so.
 
         Raises:
-            InputError: an unknown name, or something that only runs of a car that drives freely can have.
+            InputError: something that only runs of a car that drives freely can have.
         """
-        for key, value, allowed in (
-            ("camera", self.camera, CAMERAS),
-            ("layout", self.layout, LAYOUTS),
-            ("quality", self.quality, QUALITIES),
-        ):
-            if value not in allowed and not (key == "camera" and value is None):
-                raise InputError(f"'{value}' unknown; {choices(allowed, str(value))}", key=key, source="video")
         free = kind_of(clips) == "handling"
         if self.camera is not None and not free:
             raise InputError(

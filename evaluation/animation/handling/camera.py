@@ -1,14 +1,14 @@
-"""Where a car that drives freely is seen from."""
+"""How a camera follows a car that drives freely, and which one suits its run."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from susp_mj.run import Run
 
+from ..cameras import CAMERAS, Camera
 from ..clip import features_of
 from ..picture import SUN_COURSE
 from ..scene import free_camera
@@ -17,37 +17,10 @@ _CORNERING, _STANDS = 1.5, 0.1
 _TURNED = {"roll_angle": np.radians(1.0), "steering_wheel_angle": np.radians(90.0)}
 _OVER_SHOULDER = 38.0
 _CALM_COURSE, _CALM_PLACE = 0.45, 0.10
-
-
-@dataclass(frozen=True)
-class View:
-    """A camera's place about the car.
-
-    Attributes:
-        bearing: direction from the car to the camera, from straight ahead, to the inside of the bend [deg].
-        drop: how far the camera looks down [deg].
-        wide, tall: of what must fit into the picture [m].
-        height: of the point looked at above the road [m].
-        ahead: of the point looked at before the middle of the car [m].
-    """
-
-    bearing: float
-    drop: float
-    wide: float
-    tall: float
-    height: float
-    ahead: float = 0.0
-
-
-VIEWS: dict[str, View] = {
-    "chase": View(165.0, 11.0, 4.9, 3.7, 0.80, 0.3),
-    "front": View(27.0, 6.5, 5.6, 3.3, 1.0),
-    "side": View(90.0, 4.5, 7.2, 3.5, 1.0),
-}
 _HALF_ANGLE = 14.0
 
 
-def camera_for(run: Run) -> str:
+def camera_for(run: Run) -> Camera:
     """Camera that shows what a manoeuvre is about: the front for a bend, behind where a course is to be kept, else the
     side.
 
@@ -55,12 +28,12 @@ def camera_for(run: Run) -> str:
     """
     features = {str(feature.get("kind")) for feature in features_of(run)}
     if features & {"cones", "gust"}:
-        return "chase"
+        return CAMERAS["chase"]
     bends = float(np.abs(run["lateral_acceleration"]).max()) > _CORNERING
     turned = float(run["speed"].max()) < _STANDS and any(
         float(np.ptp(run[name])) > least for name, least in _TURNED.items()
     )
-    return "front" if bends or turned else "side"
+    return CAMERAS["front" if bends or turned else "side"]
 
 
 def inside(run: Run) -> float:
@@ -75,7 +48,7 @@ class Follow:
     Args:
         model: of the picture.
         run: of the car followed.
-        view: see `VIEWS`.
+        view: from where.
         inner: side of the bend, 1 left, -1 right.
         size: (width, height) of the picture [px].
         middle: of the car, before its centre of gravity [m].
@@ -83,7 +56,7 @@ class Follow:
     """
 
     def __init__(
-        self, model: Any, run: Run, view: View, inner: float, size: tuple[int, int], middle: float, room: float = 1.0
+        self, model: Any, run: Run, view: Camera, inner: float, size: tuple[int, int], middle: float, room: float = 1.0
     ) -> None:
         self.view, self.inner, self.middle = view, inner, middle
         self.camera = free_camera(model, _HALF_ANGLE)

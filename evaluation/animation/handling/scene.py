@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..cameras import CAMERAS
 from ..picture import Picture, materials
 from ..rotations import about_x, about_y, about_z
 from ..scene import Frame, Scene, put
 from ..style import Shot
 from ..window import Window, lift
-from .camera import VIEWS, Follow, camera_for, inside
+from .camera import Follow, camera_for, inside
 from .decor import Trail, column, lift_mark
 from .pose import HandlingPose, Motion
 from .shapes import add_car, car_materials, fade, tint_tyre
@@ -47,7 +48,7 @@ class HandlingScene(Scene):
             for number, (motion, colour) in enumerate(zip(self.motions, shot.colours, strict=True))
         ]
         lead = self.motions[0]
-        view = VIEWS[shot.style.camera or camera_for(shot.leader.run)]
+        view = CAMERAS[shot.style.camera] if shot.style.camera else camera_for(shot.leader.run)
         middle = -float(lead.chassis.cg[0]) - lead.chassis.wheelbase / 2 - 0.1
         room = _GHOST_ROOM if len(self.motions) > 1 else 1.0
         self.follow = Follow(self.model, lead.run, view, inside(shot.leader.run), shot.size, middle, room)

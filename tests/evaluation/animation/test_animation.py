@@ -9,8 +9,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from evaluation.animation import Clip, can_render, render, render_video, video
-from evaluation.animation.clip import kind_of, tyre_deflection
+from evaluation.animation import render, video
+from evaluation.animation.clip import Clip, kind_of, tyre_deflection
 from evaluation.animation.oscillation.hud import liveliest_angle
 from evaluation.animation.oscillation.pose import WHEEL_RADIUS as CAR_WHEEL_RADIUS
 from evaluation.animation.oscillation.pose import Layout, OscillationPose, road_speed
@@ -18,6 +18,7 @@ from evaluation.animation.oscillation.scene import place as place_car
 from evaluation.animation.oscillation.shapes import oscillation_spec
 from evaluation.animation.quarter.scene import place, pose_at, stretch_coil
 from evaluation.animation.quarter.shapes import COIL_LENGTH, WHEEL_RADIUS, quarter_spec
+from evaluation.animation.render import can_render, render_video
 from evaluation.animation.titles import describe
 from evaluation.animation.wheels_hud import plan
 from evaluation.animation.window import LONGEST_CLIP, window_of

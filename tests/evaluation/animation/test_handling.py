@@ -9,17 +9,19 @@ import mujoco
 import numpy as np
 import pytest
 
-from evaluation.animation import Clip, can_render, render_video, video
-from evaluation.animation.clip import features_of, kind_of
-from evaluation.animation.handling.camera import VIEWS, Follow, camera_for, inside
+from evaluation.animation import video
+from evaluation.animation.cameras import CAMERAS
+from evaluation.animation.clip import Clip, features_of, kind_of
+from evaluation.animation.handling.camera import Follow, camera_for, inside
 from evaluation.animation.handling.hud import HandlingHud
 from evaluation.animation.handling.pose import Motion
 from evaluation.animation.handling.shapes import add_car, car_materials
 from evaluation.animation.handling.world import proving_ground, surroundings
 from evaluation.animation.picture import Picture, materials
+from evaluation.animation.render import can_render, render_video
 from evaluation.animation.scene import put
 from evaluation.animation.shapes.saloon import Saloon, saloon
-from evaluation.animation.style import CAMERAS, Style
+from evaluation.animation.style import Style
 from evaluation.animation.titles import describe
 from evaluation.animation.window import window_of
 from evaluation.colours import COLOURS, rgb
@@ -232,7 +234,7 @@ def test_wheels_roll_on_the_road_and_the_lifted_one_is_off_it():
 
 def test_real_car_stands_on_its_road_throughout_a_lane_change():
     run = simulate(build(load_vehicle("s_class", "configuration_4"), "handling"), LaneChange(duration=4.0))
-    assert kind_of([Clip("real", run)]) == "handling" and camera_for(run) == "chase"
+    assert kind_of([Clip("real", run)]) == "handling" and camera_for(run) is CAMERAS["chase"]
     motion = Motion(run)
     for time in (0.0, 1.0, 2.5, 3.5):
         for station, wheel in motion.pose(time).wheels.items():
@@ -309,7 +311,7 @@ CONES = {"kind": "cones", "points": [[20.0, 1.2], [20.0, -1.2], [32.0, 1.2], [32
     ],
 )
 def test_camera_suits_the_manoeuvre(run, camera, inner):
-    assert (camera_for(run), inside(run)) == (camera, inner)
+    assert (camera_for(run), inside(run)) == (CAMERAS[camera], inner)
 
 
 def test_diagrams_show_what_the_manoeuvre_is_about():
@@ -328,16 +330,16 @@ def test_diagrams_show_what_the_manoeuvre_is_about():
     rolled = moved(rig, "roll_angle", 0.05 * np.sin(rig.time))
     assert (
         subject(rolled)[::2] == ["Roll angle in ° (left side up +)", "Front left travel in mm"]
-        and camera_for(rolled) == "front"
+        and camera_for(rolled) is CAMERAS["front"]
     )
 
 
 @pytest.mark.parametrize("name", CAMERAS)
 @pytest.mark.parametrize("inner", [1.0, -1.0])
-def test_camera_stands_where_its_name_says_and_follows(name, inner):
+def test_camera_stands_where_it_says_and_follows(name, inner):
     run = driven(curve(1.0, 5.0, 6.0 * inner))
     model = mujoco.MjModel.from_xml_string("<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>")
-    follow = Follow(model, run, VIEWS[name], inner, SIZE, 0.0)
+    follow = Follow(model, run, CAMERAS[name], inner, SIZE, 0.0)
     for time in (0.5, 3.0, 5.5):
         camera = follow.aim(time)
         looks = np.radians(camera.azimuth)
@@ -346,9 +348,11 @@ def test_camera_stands_where_its_name_says_and_follows(name, inner):
         )
         yaw = float(np.interp(time, run.time, run["yaw_angle"]))
         from_car = rotation("z", -yaw)[:2, :2] @ (eye - Motion(run).pose(time).place)
+        bearing = np.degrees(np.arctan2(from_car[1] * inner, from_car[0] - CAMERAS[name].ahead))
+        assert bearing == pytest.approx(CAMERAS[name].bearing, abs=8), "from the car, to the inside of the bend"
         if name == "chase":
             assert from_car[0] < -5
-        else:
+        if name in ("front", "side"):
             assert from_car[1] * inner > 2, "on the inside of the bend, where the wheel lifts"
             assert abs(from_car[0]) < 1.5 if name == "side" else from_car[0] > 5
 
