@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -155,7 +156,7 @@ def with_film(case: Case, camera: str | None, *, ghost: bool, fine: bool) -> Cas
     return case.model_copy(update={"film": film})
 
 
-def read_manoeuvre(table: dict[str, Any], source: str = "") -> Manoeuvre:
+def read_manoeuvre(table: Mapping[str, Any], source: str = "") -> Manoeuvre:
     """A manoeuvre from its table.
 
     Raises:

@@ -1,11 +1,12 @@
-"""The command line: `susp-mj`. Exit codes: 0 done, 1 criteria or claims not met, 2 bad input."""
+"""The command line: `susp-mj`. Exit codes: 0 done, 1 a configuration without a run, criteria or claims not met, 2 bad
+input."""
 
 from __future__ import annotations
 
 import io
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -30,6 +31,9 @@ app = typer.Typer(
 Out = Annotated[Path, typer.Option("--out", "-o", help="Folder for the results; made if it is not there.")]
 Video = Annotated[
     bool, typer.Option("--video", help="Also render an animation (needs EGL and ffmpeg, see 'susp-mj doctor').")
+]
+Workers = Annotated[
+    int | None, typer.Option("--workers", help="Configurations at a time; default: as many as there are cores.")
 ]
 Characteristics = Annotated[
     str | None, typer.Option("--characteristics", "-c", help="Which of the car's sets of characteristics.")
@@ -71,13 +75,14 @@ def run(
         bool, typer.Option("--fine", help="Finer pictures of driving cars, in about half again the time.")
     ] = False,
     strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 if a criterion is not met.")] = False,
+    workers: Workers = None,
 ) -> None:
     """Run a case file: simulate every configuration, evaluate, compare, report."""
     from .case import load_case, with_film
 
     loaded, path = load_case(case)
     loaded = with_film(loaded, camera, ghost=ghost, fine=fine)
-    _run(loaded, path, out or Path("out") / path.stem, video=video, strict=strict)
+    _run(loaded, path, out or Path("out") / path.stem, video=video, strict=strict, workers=workers)
 
 
 @app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []})
@@ -87,10 +92,7 @@ def drive(
     """Drive one manoeuvre on named configurations: susp-mj drive bump --help."""
     from manoeuvres import find_manoeuvre
 
-    from .script import case_from_arguments
-
-    case, path, out, video = case_from_arguments(find_manoeuvre(manoeuvre), context.args)
-    _run(case, path, out, video=video, strict=False)
+    _drive(find_manoeuvre(manoeuvre), context.args)
 
 
 @app.command()
@@ -188,13 +190,7 @@ def doctor() -> None:
 
 def manoeuvre_script(kind: str) -> None:
     """Foot of a manoeuvre module: run it as a script on configurations named on its command line."""
-    from .script import case_from_arguments
-
-    def go() -> None:
-        case, path, out, video = case_from_arguments(kind, sys.argv[1:])
-        _run(case, path, out, video=video, strict=False)
-
-    _guarded(go)
+    _guarded(lambda: _drive(kind, sys.argv[1:]))
 
 
 def main() -> None:
@@ -202,7 +198,16 @@ def main() -> None:
     _guarded(app)
 
 
-def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool) -> None:
+def _drive(kind: str, arguments: Sequence[str]) -> None:
+    from .script import case_from_arguments
+
+    asked = case_from_arguments(kind, arguments)
+    _run(asked.case, asked.path, asked.out, video=asked.video, workers=asked.workers)
+
+
+def _run(
+    case: Case, path: Path, out: Path, *, video: bool, strict: bool = False, workers: int | None = None
+) -> None:
     import mujoco
 
     from .results import carry_out
@@ -214,10 +219,10 @@ def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool) -> Non
     if video:
         _require_video()
     with _progress() as progress:
-        comparison = carry_out(case, path, out, video=video, progress=progress)
+        comparison = carry_out(case, path, out, video=video, workers=workers, progress=progress)
     print_comparison(comparison)
     _say_where(out)
-    if strict and not comparison.passed:
+    if comparison.failures or (strict and not comparison.passed):
         raise typer.Exit(1)
 
 

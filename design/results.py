@@ -12,6 +12,7 @@ from pathlib import Path
 
 from evaluation.compare import Claim, Comparison
 from susp_mj.errors import InputError, SuspMjError
+from susp_mj.recording import versions
 from vehicles.mjcf import HANDLING
 
 from .case import Case, file_name
@@ -24,28 +25,31 @@ def carry_out(
     out: Path,
     *,
     video: bool = False,
+    workers: int | None = None,
     claims: Callable[[Comparison], Sequence[Claim]] | None = None,
     progress: Report = lambda task, done: None,
 ) -> Comparison:
     """Run a case and leave ``summary.json``, ``runs/*.nc``, ``plots/*.svg``, ``report.html`` and a video in `out`.
 
     The folder receives everything at once at the end; after an error it is as it was. Only a video that fails leaves
-    the other results there, and its error is raised after them.
+    the other results there, and its error is raised after them. A run that diverged is kept up to there.
 
     Args:
+        workers: as those of `run_case`.
         claims: published statements to hold against the results.
 
     Raises:
-        InputError, SimulationError: as `run_case`; or `out` cannot be written.
+        InputError: as `run_case`; or `out` cannot be written.
+        SuspMjError: the video cannot be made.
     """
     started = time.perf_counter()
     no_video: SuspMjError | None = None
     with staged(out) as stage:
-        comparison = run_case(case, path, progress)
+        comparison = run_case(case, path, progress, workers)
         if claims is not None:
             comparison = replace(comparison, claims=tuple(claims(comparison)))
         simulated = time.perf_counter() - started
-        if video:
+        if video and comparison.configurations:
             try:
                 comparison = replace(comparison, videos=(_make_video(case, comparison, stage, progress),))
             except SuspMjError as error:
@@ -73,16 +77,16 @@ def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float
 
     started = time.perf_counter()
     progress("write results", 0.0)
-    for each in comparison.configurations:
-        each.run.save(stage / "runs" / f"{file_name(each.name)}.nc")
+    for each in comparison.outcomes:
+        if each.run is not None:
+            each.run.save(stage / "runs" / f"{file_name(each.name)}.nc")
     progress("write results", 0.2)
     plots = draw(comparison)
     progress("write results", 0.8)
     save_plots(comparison, stage / "plots", plots)
     write_report(comparison, stage / "report.html", plots=plots)
-    versions = comparison.configurations[0].run.meta["versions"]
     timings = {**timings, "report_s": round(time.perf_counter() - started, 3)}
-    write_summary(comparison, stage / "summary.json", {"versions": versions, "timings": timings})
+    write_summary(comparison, stage / "summary.json", {"versions": dict(versions()), "timings": timings})
     progress("write results", 1.0)
 
 

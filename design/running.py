@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from evaluation.characteristics import characteristic
-from evaluation.compare import Comparison, Configuration
-from evaluation.numbers import NUMBERS, Criterion, Number, evaluate
+from evaluation.compare import Comparison, Configuration, Failure, Outcome
+from evaluation.numbers import NUMBERS, Criterion, evaluate
 from evaluation.plots.sweeps import SWEEP_QUANTITIES
 from manoeuvres import VerticalSweep
-from susp_mj.errors import InputError
+from susp_mj.batch import Progress, side_by_side
+from susp_mj.errors import InputError, SimulationError
 from susp_mj.linear import Linear, linearise
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
 from susp_mj.names import AXLES
 from susp_mj.plant import Plant
+from susp_mj.recording import Diverged
 from susp_mj.run import Run
 from susp_mj.simulation import simulate
 from susp_mj.units import to_si
@@ -32,34 +35,183 @@ Report = Callable[[str, float], None]
 """Progress: called with what is being done and the fraction done, 0 to 1."""
 
 
-def run_case(case: Case, path: Path, progress: Report = lambda task, done: None) -> Comparison:
-    """Simulate and evaluate every configuration of a case.
+@dataclass(frozen=True)
+class Job:
+    """One configuration to simulate and evaluate: plain data, which any process can carry out.
+
+    Attributes:
+        setting: car, set of characteristics, overrides, one load case, axle.
+        model: topology, a key of `vehicles.mjcf.MODELS`.
+        manoeuvre: table of a manoeuvre.
+        numbers: names of the evaluation numbers.
+        step, record_every: as those of a `Case`.
+        folder: where the car's file is looked for.
+        source, place: the case file and the setting's place in it, for errors.
+    """
+
+    setting: Setting
+    model: str
+    manoeuvre: Mapping[str, Any]
+    numbers: Sequence[str]
+    step: float | None = None
+    record_every: int | None = None
+    folder: Path = Path()
+    source: str = ""
+    place: int = 0
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A job whose input is found good: what it runs."""
+
+    job: Job
+    vehicle: Vehicle
+    manoeuvre: Manoeuvre
+    plant: Plant
+
+    @property
+    def title(self) -> str:
+        """What is run, one line."""
+        vehicle = self.vehicle
+        parts = (vehicle.title, vehicle.characteristics, f"load {self.job.setting.load}")
+        return ", ".join(part for part in parts if part)
+
+    @property
+    def facts(self) -> dict[str, str]:
+        """What is run, for the summary."""
+        meaning = self.plant.meaning
+        return {
+            "vehicle": meaning.vehicle,
+            "load": meaning.load,
+            "model": meaning.model,
+            "manoeuvre": self.manoeuvre.kind,
+        }
+
+
+def run_case(
+    case: Case, path: Path, progress: Report = lambda task, done: None, workers: int | None = None
+) -> Comparison:
+    """Simulate and evaluate every configuration of a case, side by side.
+
+    A configuration that diverges is a `Failure` among the outcomes. Results do not depend on the number of workers.
 
     Args:
         path: the case file; vehicle files are looked for beside it.
+        workers: at most so many configurations at a time; None takes the usable cores.
+
+    Raises:
+        InputError: naming file, key and value; of every configuration before the first is simulated.
+    """
+    jobs = jobs_of(case, path)
+    outcomes = side_by_side(
+        jobs,
+        prepare,
+        simulated,
+        outcome,
+        workers=workers,
+        progress=lambda place, done: progress(f"simulate {jobs[place].setting.name}", done),
+    )
+    outcomes = _shown(outcomes, {*case.numbers, *case.criteria})
+    return Comparison(case.title, case.description, outcomes, _criteria(case, outcomes, path.name))
+
+
+def jobs_of(case: Case, path: Path) -> list[Job]:
+    """A case taken apart: one job for each configuration and load case."""
+    names = tuple(dict.fromkeys((*case.numbers, *case.criteria))) if case.numbers else tuple(NUMBERS)
+    return [
+        Job(
+            setting,
+            case.model,
+            case.manoeuvre,
+            names,
+            case.step,
+            case.record_every,
+            folder=path.parent,
+            source=path.name,
+            place=place,
+        )
+        for place, setting in case.settings
+    ]
+
+
+def prepare(job: Job) -> Prepared:
+    """Read and build what a job runs.
 
     Raises:
         InputError: naming file, key and value.
-        SimulationError: a run diverged or has no equilibrium.
     """
-    manoeuvre = read_manoeuvre(case.manoeuvre, path.name)
-    prepared = [_prepare(case, manoeuvre, setting, path, place) for place, setting in case.settings]
-    names = tuple(dict.fromkeys((*case.numbers, *case.criteria))) if case.numbers else tuple(NUMBERS)
-    configurations = []
-    for i, ((_, setting), (vehicle, plant)) in enumerate(zip(case.settings, prepared, strict=True)):
+    setting, name = job.setting, job.setting.vehicle
+    manoeuvre = read_manoeuvre(job.manoeuvre, job.source)
+    try:
+        vehicle = load_vehicle(
+            job.folder / name if name.endswith(".toml") else name, setting.characteristics, setting.set
+        )
+        plant = build(vehicle, job.model, str(setting.load), setting.axle, manoeuvre.rig)
+    except InputError as error:
+        if error.source:
+            raise
+        raise error.within(key=f"configuration.{job.place}", source=job.source) from None
+    return Prepared(job, vehicle, manoeuvre, plant)
 
-        def report(done: float, i: int = i, label: str = setting.name) -> None:
-            progress(f"simulate {label}", (i + done) / len(prepared))
 
-        try:
-            run = simulate(plant, manoeuvre, step=case.step, record_every=case.record_every, progress=report)
-        except InputError as error:
-            raise _of_manoeuvre(error, manoeuvre).within(source=path.name) from None
-        configurations.append(_outcome(case, setting, vehicle, manoeuvre, run, evaluate(run, names)))
-    wanted = {*case.numbers, *case.criteria}
-    shown = [name for name in names if name in wanted or any(each.numbers[name].applies for each in configurations)]
-    configurations = [replace(each, numbers={name: each.numbers[name] for name in shown}) for each in configurations]
-    return Comparison(case.title, case.description, configurations, _criteria(case, configurations, path.name))
+def simulated(prepared: Prepared, progress: Progress = lambda done: None) -> tuple[Prepared, Run | SimulationError]:
+    """The run of what was prepared, or why there is none to the end.
+
+    Raises:
+        InputError: the manoeuvre does not fit the car, or the step is too long.
+    """
+    job, manoeuvre = prepared.job, prepared.manoeuvre
+    try:
+        run = simulate(prepared.plant, manoeuvre, step=job.step, record_every=job.record_every, progress=progress)
+    except SimulationError as error:
+        return prepared, error
+    except InputError as error:
+        raise _of_manoeuvre(error, manoeuvre).within(source=job.source) from None
+    return prepared, run
+
+
+def outcome(of: tuple[Prepared, Run | SimulationError]) -> Outcome:
+    """What a run means, with what a report shows beside it; or why there is none."""
+    prepared, run = of
+    try:
+        if isinstance(run, SimulationError):
+            raise run
+        return _configuration(prepared, run)
+    except SimulationError as error:
+        until = error.run if isinstance(error, Diverged) else None
+        return Failure(prepared.job.setting.name, prepared.title, prepared.facts, str(error), until)
+
+
+def _configuration(prepared: Prepared, run: Run) -> Configuration:
+    """A run with its numbers, characteristics, modes and exact amplifications."""
+    job, vehicle = prepared.job, prepared.vehicle
+    what = (job.setting.name, prepared.title, run, evaluate(run, job.numbers))
+    if job.model == HANDLING:
+        return Configuration(*what, [characteristic(f"{name} axle", vehicle.axle(name)) for name in AXLES])
+    axles = dict.fromkeys(travel.key for travel in prepared.plant.meaning.travels)
+    curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in axles]
+    plant = build(vehicle.without_friction(), job.model, str(job.setting.load), job.setting.axle)
+    linear = linearise(plant)
+    sweep = prepared.manoeuvre if isinstance(prepared.manoeuvre, VerticalSweep) else None
+    transfer = {} if sweep is None else exact_transfer(linear, sweep, plant.meaning.inputs)
+    return Configuration(*what, curves, linear.modes(), transfer)
+
+
+def _shown(outcomes: Sequence[Outcome], wanted: Container[str]) -> list[Outcome]:
+    """The outcomes without the numbers that apply to none of them, unless they are wanted by name."""
+    applying = {
+        name
+        for each in outcomes
+        if isinstance(each, Configuration)
+        for name, number in each.numbers.items()
+        if number.applies or name in wanted
+    }
+    return [
+        replace(each, numbers={name: number for name, number in each.numbers.items() if name in applying})
+        if isinstance(each, Configuration)
+        else each
+        for each in outcomes
+    ]
 
 
 def _of_manoeuvre(error: InputError, manoeuvre: Manoeuvre) -> InputError:
@@ -67,22 +219,6 @@ def _of_manoeuvre(error: InputError, manoeuvre: Manoeuvre) -> InputError:
     if error.source == "manoeuvre" or (not error.source and error.key in type(manoeuvre).model_fields):
         return InputError(error.message, key=".".join(part for part in ("manoeuvre", error.key) if part))
     return error
-
-
-def _outcome(
-    case: Case, setting: Setting, vehicle: Vehicle, manoeuvre: Manoeuvre, run: Run, numbers: dict[str, Number]
-) -> Configuration:
-    """A run with what a report shows beside it: characteristics, modes, exact amplifications."""
-    title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, f"load {setting.load}") if part)
-    if case.model == HANDLING:
-        curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in AXLES]
-        return Configuration(setting.name, title, run, numbers, curves)
-    plant = build(vehicle.without_friction(), case.model, str(setting.load), setting.axle)
-    axles = dict.fromkeys(travel.key for travel in plant.meaning.travels)
-    curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in axles]
-    linear = linearise(plant)
-    transfer = exact_transfer(linear, manoeuvre, plant.meaning.inputs) if isinstance(manoeuvre, VerticalSweep) else {}
-    return Configuration(setting.name, title, run, numbers, curves, linear.modes(), transfer)
 
 
 def exact_transfer(
@@ -107,24 +243,11 @@ def exact_transfer(
     return result
 
 
-def _prepare(case: Case, manoeuvre: Manoeuvre, setting: Setting, path: Path, index: int) -> tuple[Vehicle, Plant]:
-    """Vehicle and plant of one configuration, errors naming its place in the case file."""
-    name = setting.vehicle
-    try:
-        vehicle = load_vehicle(
-            path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set
-        )
-        return vehicle, build(vehicle, case.model, str(setting.load), setting.axle, manoeuvre.rig)
-    except InputError as error:
-        if error.source:
-            raise
-        raise error.within(key=f"configuration.{index}", source=path.name) from None
-
-
-def _criteria(case: Case, configurations: Sequence[Configuration], source: str) -> dict[str, Criterion]:
+def _criteria(case: Case, outcomes: Sequence[Outcome], source: str) -> dict[str, Criterion]:
     criteria = {}
-    for name, band in case.criteria.items():
-        unit = NUMBERS[name](configurations[0].run).unit
+    runs = [each.run for each in outcomes if isinstance(each, Configuration)]
+    for name, band in case.criteria.items() if runs else ():
+        unit = NUMBERS[name](runs[0]).unit
         bounds: list[float | None] = []
         for key in ("min", "max"):
             value = getattr(band, key)

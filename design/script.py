@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -28,8 +29,19 @@ TEST_LOAD = "empty"
 """Load case in which handling is tested: the car in running order with its driver."""
 
 
-def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path, Path, bool]:
-    """Case, its nominal path, output folder, and whether a video is wanted.
+@dataclass(frozen=True)
+class Asked:
+    """What a command line asks for: a case with its nominal path, and where and how it is carried out."""
+
+    case: Case
+    path: Path
+    out: Path
+    video: bool
+    workers: int | None
+
+
+def case_from_arguments(kind: str, arguments: Sequence[str]) -> Asked:
+    """The case that the arguments of a manoeuvre script describe.
 
     A configuration is one combination of the given vehicles, sets of characteristics and load cases. Without a vehicle,
     a quarter car is that of chapter 3, any other model the whole car with two of its sets.
@@ -67,7 +79,7 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> tuple[Case, Path
         source=f"{kind}.py",
     )
     case = with_film(case, options["camera"], ghost=options["ghost"], fine=options["fine"])
-    return case, Path(f"{kind}.py"), options["out"], options["video"]
+    return Asked(case, Path(f"{kind}.py"), options["out"], options["video"], options["workers"])
 
 
 def _default_load(kind: str, vehicle: str) -> str:
@@ -127,6 +139,7 @@ def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
     parser.add_argument(
         "--out", "-o", type=Path, default=Path("out") / kind, help=f"folder for the results (default out/{kind})"
     )
+    parser.add_argument("--workers", type=int, help="configurations at a time (default: as many as there are cores)")
     parser.add_argument("--video", action="store_true", help="also render an animation")
     parser.add_argument("--camera", help=f"of a driving car: {offered()} (default: what suits the manoeuvre)")
     parser.add_argument("--ghost", action="store_true", help="two driving cars in one scene")

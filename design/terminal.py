@@ -30,19 +30,22 @@ def print_comparison(comparison: Comparison) -> None:
     for each in comparison.configurations:
         table.add_column(each.name, justify="right")
     verdicts = [comparison.verdicts(each) for each in comparison.configurations]
-    for name in comparison.configurations[0].numbers:
+    for name in comparison.configurations[0].numbers if comparison.configurations else ():
         cells = [
             _cell(each.numbers[name], verdict.get(name))
             for each, verdict in zip(comparison.configurations, verdicts, strict=True)
         ]
         table.add_row(name, *cells)
     console = _console()
-    console.print(table)
+    if comparison.configurations:
+        console.print(table)
     _print_turning(comparison, console)
     for each, verdict in zip(comparison.configurations, verdicts, strict=True):
         failed = [f"{name} {_band(v)}" for name, v in verdict.items() if not v["passed"]]
         if verdict:
             console.print(f"{each.name}: " + (f"fails {', '.join(failed)}" if failed else "meets all criteria"))
+    for each in comparison.failures:
+        console.print(Text(f"{each.name}: no run, {each.reason}", "bold red"))
 
 
 def _print_turning(comparison: Comparison, console: Console) -> None:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Configuration:
-    """One configuration's outcome.
+    """One configuration whose run came to its end.
 
     Attributes:
         name: as the case file calls it; the label in every plot.
@@ -52,6 +52,26 @@ class Configuration:
 
 
 @dataclass(frozen=True)
+class Failure:
+    """A configuration whose run did not come to its end, and why.
+
+    Attributes:
+        name, title, facts: as those of a `Configuration`.
+        reason: one line.
+        run: the run up to there; None if it had not begun.
+    """
+
+    name: str
+    title: str
+    facts: Mapping[str, str]
+    reason: str
+    run: Run | None = None
+
+
+Outcome = Configuration | Failure
+
+
+@dataclass(frozen=True)
 class Claim:
     """A published statement beside what came out.
 
@@ -75,7 +95,7 @@ class Comparison:
     Attributes:
         title: of the case.
         description: a sentence or two; may be empty.
-        configurations: in the order of the case file; the order fixes their colours.
+        outcomes: of the configurations, in the order of the case file.
         criteria: by number name.
         claims: published statements beside results; empty for a user's own case.
         videos: file names of videos beside the report.
@@ -83,10 +103,20 @@ class Comparison:
 
     title: str
     description: str
-    configurations: Sequence[Configuration]
+    outcomes: Sequence[Outcome]
     criteria: Mapping[str, Criterion] = field(default_factory=dict)
     claims: Sequence[Claim] = ()
     videos: Sequence[str] = ()
+
+    @property
+    def configurations(self) -> list[Configuration]:
+        """Those whose run came to its end; the order fixes their colours."""
+        return [each for each in self.outcomes if isinstance(each, Configuration)]
+
+    @property
+    def failures(self) -> list[Failure]:
+        """Those whose run did not."""
+        return [each for each in self.outcomes if isinstance(each, Failure)]
 
     def verdicts(self, configuration: Configuration) -> dict[str, dict[str, Any]]:
         """Criteria of one configuration: ``{name: {value, unit, min, max, passed}}``."""
@@ -103,20 +133,24 @@ class Comparison:
 
     @property
     def passed(self) -> bool:
-        """Whether every configuration meets every criterion."""
-        return all(verdict["passed"] for each in self.configurations for verdict in self.verdicts(each).values())
+        """Whether every configuration has a run and meets every criterion."""
+        verdicts = [verdict for each in self.configurations for verdict in self.verdicts(each).values()]
+        return not self.failures and all(verdict["passed"] for verdict in verdicts)
 
     def summary(self) -> list[dict[str, Any]]:
         """One entry per configuration, plain JSON values."""
-        return [
-            {
-                "configuration": each.name,
-                **each.facts,
-                "modes": [{"frequency": m.frequency, "damping": m.damping} for m in each.modes],
-                "numbers": {
-                    name: {"value": n.value, "unit": n.unit, "note": n.note} for name, n in each.numbers.items()
-                },
-                "criteria": self.verdicts(each),
-            }
-            for each in self.configurations
-        ]
+        return [self._summary(each) for each in self.outcomes]
+
+    def _summary(self, outcome: Outcome) -> dict[str, Any]:
+        what = {"configuration": outcome.name, **outcome.facts}
+        if isinstance(outcome, Failure):
+            return {**what, "failed": outcome.reason, "modes": [], "numbers": {}, "criteria": {}}
+        return {
+            **what,
+            "modes": [{"frequency": mode.frequency, "damping": mode.damping} for mode in outcome.modes],
+            "numbers": {
+                name: {"value": number.value, "unit": number.unit, "note": number.note}
+                for name, number in outcome.numbers.items()
+            },
+            "criteria": self.verdicts(outcome),
+        }

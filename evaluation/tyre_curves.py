@@ -3,6 +3,7 @@ slip."""
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -69,7 +70,15 @@ def tyre_curves(tyre: Any, nominal_load: float, loads: Sequence[float] | None = 
         nominal_load: [N], of the combined slip.
         loads: [N]; by default `LOADS` times the nominal one, to 100 N.
     """
-    parameters = tyre.parameters()
+    weights = tuple(round(nominal_load * each, -2) for each in LOADS) if loads is None else tuple(map(float, loads))
+    return _sampled(tyre.kind, tyre.law, tyre.parameters(), float(nominal_load), weights)
+
+
+@functools.lru_cache(maxsize=64)
+def _sampled(
+    kind: str, law: Any, parameters: tuple[float, ...], nominal_load: float, loads: tuple[float, ...]
+) -> TyreCurves:
+    """The curves, sampled once: the laws are plain Python, and cars of one comparison mostly have the same tyres."""
 
     def sample(kappa: FloatArray, alpha: FloatArray, load: float) -> FloatArray:
         """F_x, F_y, M_z in columns, for slips (..., ) that broadcast."""
@@ -77,27 +86,27 @@ def tyre_curves(tyre: Any, nominal_load: float, loads: Sequence[float] | None = 
         slips = np.broadcast_arrays(kappa, np.tan(alpha))
         rows = []
         for k, t in zip(*(each.ravel() for each in slips), strict=True):
-            tyre.law.contact(float(k), float(t), 0.0, load, ROLLING, ROLLING * float(t), 1.0, parameters, out)
+            law.contact(float(k), float(t), 0.0, load, ROLLING, ROLLING * float(t), 1.0, parameters, out)
             rows.append((out[0], out[1], out[4]))
         return np.array(rows).reshape(*slips[0].shape, 3)
 
     kappa = np.linspace(-LARGEST_KAPPA, LARGEST_KAPPA, 151)
     alpha = np.linspace(-LARGEST_ALPHA, LARGEST_ALPHA, 151)
-    weights = np.array([round(nominal_load * each, -2) for each in LOADS] if loads is None else loads, float)
+    weights = np.array(loads)
     along = np.array([sample(kappa, np.zeros(1), load)[:, 0] for load in weights])
     across = np.array([sample(np.zeros(1), alpha, load)[:, 1:] for load in weights])
     angles = np.array(ANGLES)
     dense = np.sinh(np.linspace(-4.0, 4.0, 121)) / math.sinh(4.0)
     combined = sample(dense[None, :], angles[:, None], nominal_load)
     return TyreCurves(
-        name=tyre.kind,
+        name=kind,
         loads=weights,
         kappa=kappa,
         longitudinal_force=along,
         alpha=alpha,
         lateral_force=across[..., 0],
         aligning_moment=across[..., 1],
-        nominal_load=float(nominal_load),
+        nominal_load=nominal_load,
         angles=angles,
         combined_kappa=dense,
         combined_longitudinal=combined[..., 0],

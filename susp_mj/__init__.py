@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from .run import Channel as Channel
     from .run import Run as Run
     from .simulation import simulate as simulate
-    from .simulation import simulate_many as simulate_many
 
 _HOMES = {
     "Channel": "run",
@@ -25,7 +24,6 @@ _HOMES = {
     "SimulationError": "errors",
     "SuspMjError": "errors",
     "simulate": "simulation",
-    "simulate_many": "simulation",
 }
 __all__ = [
     "Channel",
@@ -36,7 +34,6 @@ __all__ = [
     "SimulationError",
     "SuspMjError",
     "simulate",
-    "simulate_many",
 ]
 
 

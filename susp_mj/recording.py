@@ -12,6 +12,7 @@ import numpy as np
 
 from .chassis import free_motion
 from .elements.car import SIGNALS
+from .errors import SimulationError
 from .manoeuvre import Manoeuvre
 from .names import channel_name
 from .plant import Plant
@@ -93,18 +94,30 @@ def _meta(plant: Plant, manoeuvre: Manoeuvre, step: float, road: Road | None) ->
         "places": {place.station: [place.x, place.y] for place in meaning.inputs if place.quantity == "road_height"},
         "step": step,
         "integrator": "RK4",
-        "versions": dict(_versions()),
+        "versions": dict(versions()),
         **({} if road is None else {"road": {"features": [dict(feature) for feature in road.features]}}),
     }
 
 
 @functools.cache
-def _versions() -> Mapping[str, str]:
+def versions() -> Mapping[str, str]:
     """Versions of what computes; looked up once."""
     return {"susp_mj": version("susp_mj"), "mujoco": mujoco.__version__}
 
 
-def diverged(run: Run, step: float) -> str:
+class Diverged(SimulationError):
+    """The motion left all bounds: one line that names when, and in which channel.
+
+    Attributes:
+        run: the records up to there; its last one holds what is out of bounds.
+    """
+
+    def __init__(self, run: Run, step: float) -> None:
+        self.run = run
+        super().__init__(_diverged(run, step))
+
+
+def _diverged(run: Run, step: float) -> str:
     """One line that names when the motion left all bounds, and in which channel."""
     last = {name: channel.values[-1] for name, channel in run.channels.items()}
     broken = [name for name, value in last.items() if not np.isfinite(value)]

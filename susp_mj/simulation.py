@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
 
 from .elements.car import SIGNALS
 from .equilibrium import static_equilibrium
-from .errors import InputError, SimulationError
+from .errors import InputError
 from .inputs import sample_inputs
 from .manoeuvre import Manoeuvre
 from .plant import Plant
-from .recording import FIELDS, as_run, diverged
+from .recording import FIELDS, Diverged, as_run
 from .run import Run
 from .trim import Blocks, remembered, remind, trimmed
 
@@ -63,7 +62,8 @@ def simulate(
     Raises:
         InputError: the manoeuvre does not fit the plant, the step is too long for an element, or the load cannot be
             carried.
-        SimulationError: the motion diverged; the text names time and channel.
+        SimulationError: there is no equilibrium to begin from.
+        Diverged: the motion left all bounds; the text names time and channel, its `run` is the run up to there.
     """
     from .compiled import advance, attach_input, input_block, install
 
@@ -125,7 +125,7 @@ def simulate(
         steered=driver is not None,
     )
     if not sound or any(warning.number for warning in data.warning):
-        raise SimulationError(diverged(run, step))
+        raise Diverged(run, step)
     return run
 
 
@@ -141,25 +141,6 @@ def _at_start(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray, step: flo
     return trimmed(
         plant, dataclasses.replace(blocks, inputs=block), manoeuvre.driving_speed() if plant.meaning.driving else 0.0
     )
-
-
-def simulate_many(
-    jobs: Sequence[tuple[Plant, Manoeuvre]],
-    *,
-    step: float | None = None,
-    record_every: int | None = None,
-    workers: int | None = None,
-) -> list[Run]:
-    """Run several simulations side by side on threads; the results are those of `simulate`, in the order given.
-
-    The stepping loop holds no Python lock, so threads run in parallel.
-    """
-    from .compiled import install
-
-    for plant, _ in jobs:
-        install(plant.laws, plant.contacts)
-    with ThreadPoolExecutor(workers) as pool:
-        return list(pool.map(lambda job: simulate(*job, step=step, record_every=record_every), jobs))
 
 
 def fine_enough(plant: Plant) -> int:

@@ -62,6 +62,7 @@ def write_report(
             configurations=[
                 {"name": each.name, "title": each.title, **each.facts} for each in comparison.configurations
             ],
+            failures=comparison.failures,
             claims=comparison.claims,
             criteria=_criteria_rows(comparison),
             turning=turning_table(comparison),
@@ -80,7 +81,9 @@ def write_report(
 
 
 def _verdict(comparison: Comparison) -> Iterator[dict[str, str]]:
-    """Lines that say how it went: claims, then criteria."""
+    """Lines that say how it went: configurations without a run, claims, then criteria."""
+    for each in comparison.failures:
+        yield {"mark": "bad", "word": f"✗ {each.name} has no run.", "text": each.reason}
     claims = comparison.claims
     if claims:
         failed = sum(not each.holds for each in claims)
@@ -101,6 +104,7 @@ def _verdict(comparison: Comparison) -> Iterator[dict[str, str]]:
             f"{name} fails {count} of {len(comparison.criteria)}" if count else f"{name} meets all"
             for name, count in failing.items()
         )
+        said = "; ".join([said] * bool(failing) + [f"{each.name} has no run" for each in comparison.failures])
         passed = comparison.passed
         text = (
             f"Every configuration meets {_count(len(comparison.criteria), 'criterion', 'criteria')}."

@@ -31,6 +31,8 @@ def draw(comparison: Comparison) -> dict[str, str]:
 
     Those of the tyres with slip are drawn for the model that rolls on them.
     """
+    if not comparison.configurations:
+        return {}
     sets = {each.name: each.characteristics for each in comparison.configurations}
     rolling = any(each.run.meta.get("model") == HANDLING for each in comparison.configurations)
     return {

@@ -9,6 +9,7 @@ elements is in `car`.
 from __future__ import annotations
 
 import ctypes
+import threading
 from typing import Any
 
 import mujoco
@@ -159,6 +160,9 @@ _SLOTS = {
 }
 
 
+_installing = threading.Lock()
+
+
 def install(laws: Any = None, contacts: Any = ()) -> None:
     """Put the compiled callbacks into MuJoCo; calling it again changes nothing.
 
@@ -172,15 +176,16 @@ def install(laws: Any = None, contacts: Any = ()) -> None:
     Raises:
         CallbackError: another program has installed a callback of its own.
     """
-    compile_laws(LAWS if laws is None else laws)
-    compile_contacts(contacts)
-    for name, (get, put, compiled) in _SLOTS.items():
-        present = get()
-        if present is not None and not _is_ours(present, compiled):
-            raise CallbackError(f"mjcb_{name} is taken by another program; call mujoco.set_mjcb_{name}(None) first")
-        if present is None:
-            put(compiled.ctypes)
-    stop_clock()
+    with _installing:
+        compile_laws(LAWS if laws is None else laws)
+        compile_contacts(contacts)
+        for name, (get, put, compiled) in _SLOTS.items():
+            present = get()
+            if present is not None and not _is_ours(present, compiled):
+                raise CallbackError(f"mjcb_{name} is taken by another program; call mujoco.set_mjcb_{name}(None) first")
+            if present is None:
+                put(compiled.ctypes)
+        stop_clock()
 
 
 def uninstall() -> None:
