@@ -205,9 +205,7 @@ def _drive(kind: str, arguments: Sequence[str]) -> None:
     _run(asked.case, asked.path, asked.out, video=asked.video, workers=asked.workers)
 
 
-def _run(
-    case: Case, path: Path, out: Path, *, video: bool, strict: bool = False, workers: int | None = None
-) -> None:
+def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool = False, workers: int | None = None) -> None:
     import mujoco
 
     from .results import carry_out
@@ -295,10 +293,8 @@ def _video_obstacle() -> str | None:
 
 
 def _say_where(out: Path) -> None:
-    typer.echo(
-        f"results in {out}: report.html, summary.json, plots/, runs/"
-        + (", video.mp4" if (out / "video.mp4").is_file() else "")
-    )
+    written = [name for name in ("plots/", "runs/", "video.mp4") if (out / name).exists()]
+    typer.echo(f"results in {out}: {', '.join(('report.html', 'summary.json', *written))}")
 
 
 if __name__ == "__main__":

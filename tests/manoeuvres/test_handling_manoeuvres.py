@@ -109,15 +109,15 @@ def test_models_that_scripts_take_by_themselves():
     assert default_model("ramp_steer") == default_model("suspension_rig") == "handling"
     assert default_model("bump") == "quarter_2dof"
     assert default_model("lateral_force") == "full_3dof"
-    case, *_ = case_from_arguments("ramp_steer", [])
+    case = case_from_arguments("ramp_steer", []).case
     assert case.model == "handling"
     assert [(each.vehicle, each.characteristics) for each in case.configuration] == [
         ("s_class", "configuration_3"),
         ("s_class", "configuration_4"),
     ]
-    case, *_ = case_from_arguments("bump", ["-m", "handling", "-c", "configuration_5"])
+    case = case_from_arguments("bump", ["-m", "handling", "-c", "configuration_5"]).case
     assert [(each.vehicle, each.characteristics) for each in case.configuration] == [("s_class", "configuration_5")]
-    assert case_from_arguments("bump", [])[0].configuration[0].vehicle == "chapter3"
+    assert case_from_arguments("bump", []).case.configuration[0].vehicle == "chapter3"
 
 
 @pytest.mark.parametrize("name", [name for name in available_cases() if name.startswith("handling_")])
