@@ -8,6 +8,7 @@ import numpy as np
 
 from manoeuvres.driving import held_speed
 from manoeuvres.surface import check_length, sampled
+from susp_mj import features
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import HeightAndSlope, Road, cosine_bump
@@ -50,8 +51,9 @@ class Bump(Manoeuvre):
     def road(self) -> Road:
         check_length(self.length, "length")
         begin = self.speed * self.start
-        feature = {"kind": "bump", "x": [begin, begin + self.length], "height": self.height}
-        return sampled(lambda x, y: self.profile(x)[0], begin, begin + self.length, features=(feature,))
+        end = begin + self.length
+        shown = (features.Bump((begin, end), self.height),)
+        return sampled(lambda x, y: self.profile(x)[0], begin, end, features=shown)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import numpy as np
 
 from manoeuvres.driving import Driving
 from manoeuvres.surface import LONGEST
+from susp_mj import features
 from susp_mj.driver import Driver, Path
 from susp_mj.roads import Road, cosine_ramp
 from susp_mj.units import PositiveSpeed, PositiveTime, Quantity
@@ -49,7 +50,7 @@ class CrossSlope(Driving):
             x,
             y,
             np.outer(lean, y),
-            features=({"kind": "cross_slope", "slope": self.slope, "x": [begin, begin + self.transition]},),
+            features=(features.CrossSlope((begin, begin + self.transition), self.slope),),
         )
 
     def driver(self) -> Driver | None:

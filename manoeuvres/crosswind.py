@@ -10,6 +10,7 @@ from pydantic import model_validator
 from manoeuvres.driving import Driving, fallen, risen
 from susp_mj.description import wrong
 from susp_mj.driver import Driver, Path
+from susp_mj.features import Gust
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import Road
@@ -59,8 +60,7 @@ class Crosswind(Driving):
 
     def road(self) -> Road:
         begin = self.speed * self.start
-        gust = {"kind": "gust", "x": [begin, begin + self.length + self.flank], "wind": self.wind}
-        return Road(features=(gust,))
+        return Road(features=(Gust((begin, begin + self.length + self.flank), self.wind),))
 
     def driver(self) -> Driver | None:
         return Driver(Path()) if self.steered else None

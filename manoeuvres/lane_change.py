@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
 from manoeuvres.driving import Driving
 from susp_mj.driver import Driver, Path
+from susp_mj.features import Cones, Course, Lane
 from susp_mj.roads import Road
 from susp_mj.units import NonNegativeLength, PositiveLength, PositiveSpeed, PositiveTime, Quantity
 
@@ -21,28 +21,10 @@ CONE = 0.15
 _SPACING = 0.25
 
 
-@dataclass(frozen=True)
-class Lane:
-    """One of the three lanes.
-
-    Attributes:
-        x_from, x_to, y_from, y_to: its limits [m].
-    """
-
-    x_from: float
-    x_to: float
-    y_from: float
-    y_to: float
-
-    @property
-    def centre(self) -> float:
-        """Lateral position of its middle [m]."""
-        return (self.y_from + self.y_to) / 2
-
-    def cones(self) -> list[list[float]]:
-        """Centres of the cones on both sides, at its begin, middle and end."""
-        along = (self.x_from, (self.x_from + self.x_to) / 2, self.x_to)
-        return [[x, y] for y in (self.y_from - CONE, self.y_to + CONE) for x in along]
+def cones_of(lane: Lane) -> list[tuple[float, float]]:
+    """Centres of the cones on both sides of a lane, at its begin, middle and end [m]."""
+    along = (lane.x[0], (lane.x[0] + lane.x[1]) / 2, lane.x[1])
+    return [(x, y) for y in (lane.y[0] - CONE, lane.y[1] + CONE) for x in along]
 
 
 class LaneChange(Driving):
@@ -84,27 +66,25 @@ class LaneChange(Driving):
         first, second, third = (share * self.vehicle_width + 0.25 for share in (1.1, 1.2, 1.3))
         right = -first / 2
         return (
-            Lane(float(ends[0]), float(ends[1]), right, right + first),
-            Lane(float(ends[2]), float(ends[3]), right + OFFSET, right + OFFSET + second),
-            Lane(float(ends[4]), float(ends[5]), right, right + third),
+            Lane((float(ends[0]), float(ends[1])), (right, right + first)),
+            Lane((float(ends[2]), float(ends[3])), (right + OFFSET, right + OFFSET + second)),
+            Lane((float(ends[4]), float(ends[5])), (right, right + third)),
         )
 
     def path(self, x: np.ndarray) -> np.ndarray:
         """The driver's path y(x) [m]."""
         first, second, third = self.lanes
-        there = _minimum_jerk((x - first.x_to + self.cut) / (second.x_from - first.x_to + 2 * self.cut))
-        back = _minimum_jerk((x - second.x_to + self.cut) / (third.x_from - second.x_to + 2 * self.cut))
+        there = _minimum_jerk((x - first.x[1] + self.cut) / (second.x[0] - first.x[1] + 2 * self.cut))
+        back = _minimum_jerk((x - second.x[1] + self.cut) / (third.x[0] - second.x[1] + 2 * self.cut))
         return first.centre + (second.centre - first.centre) * there + (third.centre - second.centre) * back
 
     def road(self) -> Road:
-        cones = [cone for lane in self.lanes for cone in lane.cones()]
-        lanes = [{"x": [lane.x_from, lane.x_to], "y": [lane.y_from, lane.y_to]} for lane in self.lanes]
-        x = np.linspace(0.0, self.lanes[2].x_to + 30.0, 200)
-        path = {"kind": "path", "x": [float(each) for each in x], "y": [float(each) for each in self.path(x)]}
-        return Road(features=({"kind": "cones", "points": cones, "radius": CONE, "lanes": lanes}, path))
+        cones = Cones(tuple(cone for lane in self.lanes for cone in cones_of(lane)), CONE, self.lanes)
+        x = np.linspace(0.0, self.lanes[2].x[1] + 30.0, 200)
+        return Road(features=(cones, Course(tuple(x.tolist()), tuple(self.path(x).tolist()))))
 
     def driver(self) -> Driver:
-        x = np.arange(0.0, self.lanes[2].x_to + 60.0, _SPACING)
+        x = np.arange(0.0, self.lanes[2].x[1] + 60.0, _SPACING)
         return Driver(Path(x, self.path(x)), self.preview_time, self.lag, self.understeer)
 
 

@@ -12,6 +12,7 @@ from manoeuvres.driving import held_speed
 from manoeuvres.surface import sampled
 from susp_mj.description import wrong
 from susp_mj.errors import InputError
+from susp_mj.features import Roughness
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import ROAD_CLASSES, RandomTracks, Road
@@ -75,8 +76,8 @@ class RandomRoad(Manoeuvre):
                 source="manoeuvre",
             )
         tracks, half = self._road_tracks(self.duration), self.track / 2
-        feature = {"kind": "random", "road_class": self.road_class, "x": [0.0, distance]}
-        return sampled(lambda x, y: tracks.at(x, y)[0], 0.0, distance + 10.0, (-half, half), (feature,))
+        shown = (Roughness((0.0, distance), self.road_class),)
+        return sampled(lambda x, y: tracks.at(x, y)[0], 0.0, distance + 10.0, (-half, half), shown)
 
     def _road_tracks(self, duration: float) -> RandomTracks:
         if self.speed * duration > 1e6 or self.longest > 1e5:

@@ -9,9 +9,10 @@ import numpy as np
 from manoeuvres.braking import braked
 from manoeuvres.driving import Driving, Pedal
 from susp_mj.driver import Driver, Path
+from susp_mj.features import Patch
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
-from susp_mj.roads import Patch, Road
+from susp_mj.roads import Road
 from susp_mj.units import PositiveLength, PositiveSpeed, PositiveTime, Quantity
 
 _HALF_WIDTH = 20.0  # m
@@ -51,9 +52,7 @@ class SplitMu(Driving):
     def road(self) -> Road:
         begin = self.speed * self.start
         low, high = (-_HALF_WIDTH, 0.0) if self.side == "right" else (0.0, _HALF_WIDTH)
-        patch = Patch(begin, begin + self.length, low, high, self.friction)
-        feature = {"kind": "patch", "x": [patch.x_from, patch.x_to], "y": [low, high], "friction": self.friction}
-        return Road(patches=(patch,), features=(feature,))
+        return Road(patches=(Patch((begin, begin + self.length), (low, high), self.friction),))
 
     def driver(self) -> Driver | None:
         return Driver(Path()) if self.steered else None

@@ -10,6 +10,7 @@ from pydantic import model_validator
 from manoeuvres.driving import Driving
 from susp_mj.description import wrong
 from susp_mj.driver import Driver, Path
+from susp_mj.features import Circle
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import Road
@@ -66,7 +67,7 @@ class SteadyCircle(Driving):
         return speed, np.where(rising, self.increase * radius / (2 * speed), 0.0)
 
     def road(self) -> Road:
-        return Road(features=({"kind": "path", "radius": self.radius},))
+        return Road(features=(Circle(self.radius),))
 
     def driver(self) -> Driver:
         return Driver(Path(radius=self.radius), understeer=self.understeer)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
 from susp_mj.errors import InputError
+from susp_mj.features import Feature
 from susp_mj.roads import Road
 
 SPACING = 0.02
@@ -37,7 +37,7 @@ def sampled(
     begin: float,
     end: float,
     across: tuple[float, ...] = (0.0,),
-    features: tuple[Mapping[str, Any], ...] = (),
+    features: tuple[Feature, ...] = (),
 ) -> Road:
     """Road from a height over place and lateral position; it goes on as at its ends.
 
@@ -45,7 +45,7 @@ def sampled(
         height: height [m] at places x (n,) [m] and one lateral position y [m].
         begin, end: what to sample along the road [m]; a few samples more are taken on both sides.
         across: lateral positions [m], one, or two for a left and a right track.
-        features: what a picture of the road shows.
+        features: what lies on it.
     """
     x = begin + SPACING * np.arange(-4, int(np.ceil((end - begin) / SPACING)) + 5)
     return Road(x, np.array(across), np.column_stack([height(x, y) for y in across]), features=features)

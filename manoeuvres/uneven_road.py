@@ -8,6 +8,7 @@ import numpy as np
 
 from manoeuvres.driving import held_speed
 from manoeuvres.surface import check_length, sampled
+from susp_mj.features import Bump
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import HeightAndSlope, Road, cosine_bump
@@ -51,10 +52,9 @@ class UnevenRoad(Manoeuvre):
     def road(self) -> Road:
         check_length(self.length, "length")
         begin = self.speed * self.start
-        x = [begin, begin + self.length]
-        bumps = (("left", self.left_height, [0.0, 2.0]), ("right", self.right_height, [-2.0, 0.0]))
-        features = tuple({"kind": "bump", "x": x, "y": y, "side": side, "height": height} for side, height, y in bumps)
-        return sampled(lambda x, y: self.profile(x, y)[0], begin, begin + self.length, (-0.1, 0.1), features)
+        end = begin + self.length
+        bumps = (Bump((begin, end), self.left_height, (0.0, 2.0)), Bump((begin, end), self.right_height, (-2.0, 0.0)))
+        return sampled(lambda x, y: self.profile(x, y)[0], begin, end, (-0.1, 0.1), bumps)
 
 
 if __name__ == "__main__":

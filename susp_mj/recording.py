@@ -13,6 +13,7 @@ import numpy as np
 from .chassis import free_motion
 from .elements.car import SIGNALS
 from .errors import SimulationError
+from .features import as_json
 from .manoeuvre import Manoeuvre
 from .names import channel_name
 from .plant import Plant
@@ -95,7 +96,7 @@ def _meta(plant: Plant, manoeuvre: Manoeuvre, step: float, road: Road | None) ->
         "step": step,
         "integrator": "RK4",
         "versions": dict(versions()),
-        **({} if road is None else {"road": {"features": [dict(feature) for feature in road.features]}}),
+        **({} if road is None else {"road": {"features": as_json(road.shown)}}),
     }
 
 

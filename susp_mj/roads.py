@@ -3,11 +3,12 @@ drives freely."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+
+from .features import Feature, Patch
 
 HeightAndSlope = tuple[np.ndarray, np.ndarray]
 
@@ -107,22 +108,6 @@ class RandomTracks:
         return self._splines[y]
 
 
-@dataclass(frozen=True)
-class Patch:
-    """Rectangle of the road with a friction of its own, as a factor on what the tyre was measured with.
-
-    Attributes:
-        x_from, x_to, y_from, y_to: [m] in the inertial frame.
-        friction: factor, 1 for the dry road of the tyre's measurement.
-    """
-
-    x_from: float
-    x_to: float
-    y_from: float
-    y_to: float
-    friction: float
-
-
 def _flat() -> np.ndarray:
     return np.zeros((2, 1))
 
@@ -138,10 +123,10 @@ class Road:
         x: (n,) evenly spaced places along the road [m], n >= 2.
         y: (m,) evenly spaced places across it [m], + to the left; one value makes all tracks equal.
         height: (n, m) [m].
-        patches: see `Patch`.
+        patches: where it has another friction.
         cross_slope: rise per metre to the left [1].
         friction: of the whole road, as a factor on what the tyre was measured with; the patches' factors come on top.
-        features: what a picture of the road shows, plain JSON values.
+        features: what else lies or stands on it, for pictures, plots and numbers.
     """
 
     x: np.ndarray = field(default_factory=lambda: np.array([0.0, 1.0]))
@@ -150,7 +135,12 @@ class Road:
     patches: tuple[Patch, ...] = ()
     cross_slope: float = 0.0
     friction: float = 1.0
-    features: tuple[Mapping[str, Any], ...] = ()
+    features: tuple[Feature, ...] = ()
+
+    @property
+    def shown(self) -> tuple[Feature, ...]:
+        """What a run tells of the road: patches and features."""
+        return (*self.patches, *self.features)
 
     def block(self) -> np.ndarray:
         """The road as the compiled car reads it; see `compiled.surroundings`."""
@@ -166,5 +156,5 @@ class Road:
             self.friction,
         ]
         head.append(len(self.patches))
-        patches = [value for p in self.patches for value in (p.x_from, p.x_to, p.y_from, p.y_to, p.friction)]
+        patches = [value for p in self.patches for value in (*p.x, *p.y, p.friction)]
         return np.concatenate([np.array(head, float), np.array(patches, float), np.asarray(self.height, float).ravel()])

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from susp_mj.errors import InputError
+from susp_mj.features import Circle, Course, Feature, features_in
 from susp_mj.names import CORNERS, channel_name
 from susp_mj.run import Run
 
@@ -98,17 +99,12 @@ def stations_of(run: Run) -> list[str]:
     return list(run.stations("wheel_load"))
 
 
-def features_of(run: Run) -> list[Mapping[str, Any]]:
-    """What the manoeuvre says that its road shows; the circle that a driver is to keep, too."""
-    road, radius = run.meta.get("road"), run.meta.get("manoeuvre", {}).get("radius")
-    given = road.get("features", []) if isinstance(road, Mapping) else []
-    features = [feature for feature in given if isinstance(feature, Mapping)]
-    if (
-        "path_deviation" in run
-        and isinstance(radius, (int, float))
-        and not any(feature.get("kind") == "path" for feature in features)
-    ):
-        features.append({"kind": "path", "radius": float(radius)})
+def features_of(run: Run) -> tuple[Feature, ...]:
+    """What the road of a run shows; the circle that a driver is to keep, too."""
+    features, radius = features_in(run.meta), run.meta.get("manoeuvre", {}).get("radius")
+    followed = any(isinstance(feature, Course | Circle) for feature in features)
+    if "path_deviation" in run and isinstance(radius, int | float) and not followed:
+        return (*features, Circle(float(radius)))
     return features
 
 

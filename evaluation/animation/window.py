@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from susp_mj.features import Bump
 from susp_mj.names import channel_name
 from susp_mj.run import Run
 
@@ -59,7 +60,7 @@ def window_of(runs: Sequence[Run], fps: int, playback: float | None) -> Window:
     Of cars that drive freely the whole run is shown, in real time or, if it is long, quicker; over a bump they count as
     others.
     """
-    bump = any(feature.get("kind") == "bump" for run in runs for feature in features_of(run))
+    bump = any(isinstance(feature, Bump) for run in runs for feature in features_of(run))
     if not bump and all("position_x" in run for run in runs):
         start, end = min(float(run.time[0]) for run in runs), max(float(run.time[-1]) for run in runs)
         if playback is None:

@@ -3,11 +3,9 @@ deviation."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
+from susp_mj.features import Cones, features_in
 from susp_mj.run import Run
 
 from .braking import sideways_from
@@ -62,8 +60,8 @@ def cones_hit(run: Run) -> Number:
     if track is None:
         return missing("1", "no lanes of cones")
     x, y = outline(run)
-    points = np.array(track["points"], float)
-    hit = [_touches(run, point, (x, y), float(track["radius"])) for point in points]
+    points = np.array(track.points)
+    hit = [_touches(run, point, (x, y), track.radius) for point in points]
     named = ", ".join(
         f"x = {point[0]:.0f} m {'left' if point[1] > 0 else 'right'}"
         for point, touched in zip(points, hit, strict=True)
@@ -78,10 +76,10 @@ def lane_departure(run: Run) -> Number:
     if track is None:
         return missing("m", "no lanes of cones")
     worst, where = 0.0, "stays inside"
-    for number, lane in enumerate(track["lanes"], 1):
+    for number, lane in enumerate(track.lanes, 1):
         for x, y in corners(run).values():
-            inside = (x >= lane["x"][0]) & (x <= lane["x"][1])
-            beyond = np.where(inside, np.maximum(lane["y"][0] - y, y - lane["y"][1]), -np.inf)
+            inside = (x >= lane.x[0]) & (x <= lane.x[1])
+            beyond = np.where(inside, np.maximum(lane.y[0] - y, y - lane.y[1]), -np.inf)
             if beyond.max() > worst:
                 worst, where = float(beyond.max()), f"in lane {number}"
     number = Number(worst, "m", where)
@@ -98,11 +96,11 @@ def lane_exit_speed(run: Run) -> Number:
     return _lane_speed(run, -1, 1)
 
 
-def cones(run: Run) -> Mapping[str, Any] | None:
-    """The lanes of cones of a run's road: centres and radius of the cones, limits of the lanes."""
+def cones(run: Run) -> Cones | None:
+    """The lanes of cones of a run's road."""
     if not drives(run):
         return None
-    return next((each for each in run.meta.get("road", {}).get("features", ()) if each.get("kind") == "cones"), None)
+    return next((each for each in features_in(run.meta) if isinstance(each, Cones)), None)
 
 
 def outline(run: Run) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -155,7 +153,7 @@ def _lane_speed(run: Run, lane: int, end: int) -> Number:
     if track is None:
         return missing("m/s", "no lanes of cones")
     (_, front), _ = outline(run)
-    place = track["lanes"][lane]["x"][end]
+    place = track.lanes[lane].x[end]
     at = first(run["position_x"] + front - float(parameter(run, "front_overhang", 0.8)) >= place)
     if at is None:
         return Number(None, "m/s", f"does not get to x = {place:.0f} m")

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from susp_mj.features import Course, features_in
 from susp_mj.run import Run
 
 from .number import Number
@@ -59,9 +60,9 @@ def deviation(run: Run) -> np.ndarray | None:
     x, y, radius = run["position_x"], run["position_y"], parameter(run, "radius")
     if kind(run) == "steady_circle" and radius:
         return (abs(radius) - np.hypot(x, y - radius)) * np.sign(radius)
-    path = next((each for each in run.meta.get("road", {}).get("features", ()) if each.get("kind") == "path"), {})
-    if "x" in path:
-        return y - np.interp(x, path["x"], path["y"])
+    course = next((each for each in features_in(run.meta) if isinstance(each, Course)), None)
+    if course is not None:
+        return y - np.interp(x, course.x, course.y)
     return y if parameter(run, "steered", False) else None
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from susp_mj.features import Circle, Cones, Course, Gust, Patch, features_in
 from susp_mj.run import Run
 
 from ..colours import INK, MUTED, PAPER
@@ -76,24 +77,27 @@ def _front_wheels(run: Run) -> list[tuple[np.ndarray, np.ndarray]]:
 
 def _draw_features(panel: Axes, run: Run) -> None:
     """Cones, slippery ground, gusts and the driver's path."""
-    for feature in run.meta.get("road", {}).get("features", ()):
-        if feature["kind"] == "cones":
-            x, y = np.array(feature["points"]).T
-            panel.plot(x, y, "o", color=PAPER, markersize=4.5, markeredgecolor=INK, markeredgewidth=1.0)
-        elif feature["kind"] == "path":
-            panel.plot(*_path(feature), color=MUTED, linewidth=0.9, linestyle=(0, (5, 3)))
-        elif feature["kind"] == "patch":
-            _box(panel, feature["x"], feature["y"], f"friction x {feature['friction']:g}", run)
-        elif feature["kind"] == "gust":
-            _box(panel, feature["x"], None, f"wind {feature['wind']:g} m/s", run)
+    for feature in features_in(run.meta):
+        match feature:
+            case Cones():
+                x, y = np.array(feature.points).T
+                panel.plot(x, y, "o", color=PAPER, markersize=4.5, markeredgecolor=INK, markeredgewidth=1.0)
+            case Course():
+                _draw_path(panel, np.array(feature.x), np.array(feature.y))
+            case Circle():
+                angle, radius = np.linspace(0.0, 2 * np.pi, 200), feature.radius
+                _draw_path(panel, abs(radius) * np.sin(angle), radius * (1 - np.cos(angle)))
+            case Patch():
+                _box(panel, feature.x, feature.y, f"friction x {feature.friction:g}", run)
+            case Gust():
+                _box(panel, feature.x, None, f"wind {feature.wind:g} m/s", run)
+            case _:
+                pass  # the road's own shape
 
 
-def _path(feature: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
-    """Places on the driver's path, a circle or a table."""
-    if "radius" in feature:
-        angle = np.linspace(0.0, 2 * np.pi, 200)
-        return abs(feature["radius"]) * np.sin(angle), feature["radius"] * (1 - np.cos(angle))
-    return np.asarray(feature["x"]), np.asarray(feature["y"])
+def _draw_path(panel: Axes, x: np.ndarray, y: np.ndarray) -> None:
+    """The path that the driver is to follow, dashed."""
+    panel.plot(x, y, color=MUTED, linewidth=0.9, linestyle=(0, (5, 3)))
 
 
 def _box(panel: Axes, x: Sequence[float], y: Sequence[float] | None, words: str, run: Run) -> None:

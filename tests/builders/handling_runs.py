@@ -9,6 +9,7 @@ from scipy.signal import lsim
 
 from evaluation.compare import Comparison, Configuration
 from evaluation.numbers import NUMBERS, evaluate
+from susp_mj.features import as_json
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
 from susp_mj.names import CORNERS
@@ -66,7 +67,7 @@ def made_up(
         "manoeuvre": manoeuvre.model_dump(mode="json"),
         "travel": {corner: [-0.1, 0.09] for corner in CORNERS},
         "facts": {**Bicycle().facts, **(facts or {})},
-        "road": {"features": [] if road is None else list(road.features)},
+        "road": {"features": [] if road is None else as_json(road.shown)},
         "step": 1e-3,
         "versions": {"susp_mj": "0", "mujoco": "0"},
     }

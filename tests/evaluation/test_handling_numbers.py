@@ -484,8 +484,8 @@ def test_a_car_beside_the_path_hits_the_cones_of_the_first_lane(offset):
     room = (0.1 * 1.8 + 0.25) / 2
     first = manoeuvre.lanes[0]
     corners = course.corners(run)["front left" if offset > 0 else "front right"]
-    inside = (corners[0] > first.x_from) & (corners[0] < first.x_to)
-    beyond = np.abs(corners[1][inside]).max() - (first.y_to - first.y_from) / 2
+    inside = (corners[0] > first.x[0]) & (corners[0] < first.x[1])
+    beyond = np.abs(corners[1][inside]).max() - (first.y[1] - first.y[0]) / 2
     assert beyond == pytest.approx(0.4 - room, abs=1e-9)
     assert "left" in course.cones_hit(run).note if offset > 0 else "x = 11 m right" in course.cones_hit(run).note
     assert course.lane_departure(run).value > 2.0, "it misses the second lane"
@@ -494,7 +494,7 @@ def test_a_car_beside_the_path_hits_the_cones_of_the_first_lane(offset):
 def test_the_outline_touches_a_cone_with_its_side_not_its_centre_line():
     manoeuvre = LaneChange(vehicle_width=1.8)
     first = manoeuvre.lanes[0]
-    room = (first.y_to - first.y_from - 1.8) / 2
+    room = (first.y[1] - first.y[0] - 1.8) / 2
     time = np.arange(1201) * 1e-3
     x = manoeuvre.speed * time - CAR.front
     for offset, hit in ((room - 0.01, 0.0), (room + 0.01, 3.0)):

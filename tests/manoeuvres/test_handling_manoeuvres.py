@@ -39,6 +39,7 @@ from manoeuvres.lane_change import CONE
 from manoeuvres.sweeping import Sweep
 from susp_mj import InputError
 from susp_mj.description import validate
+from susp_mj.features import Course
 from susp_mj.meaning import Input
 
 ROOT = Path(__file__).parents[2]
@@ -239,8 +240,8 @@ def test_pedals():
 def test_slippery_side(side, low, high):
     manoeuvre = SplitMu(side=side, speed=20.0, start=0.5, friction=0.25)
     (patch,) = manoeuvre.road().patches
-    assert (patch.x_from, patch.y_from, patch.y_to, patch.friction) == (10.0, low, high, 0.25)
-    assert manoeuvre.road().features[0]["kind"] == "patch"
+    assert (patch.x[0], patch.y, patch.friction) == (10.0, (low, high), 0.25)
+    assert manoeuvre.road().shown == (patch,)
     assert manoeuvre.driver() is None
     assert SplitMu(steered=True).driver() is not None
 
@@ -303,23 +304,23 @@ def test_lanes_of_iso_3888_1(width):
     manoeuvre = LaneChange(vehicle_width=width, speed=20.0, start=0.5)
     first, second, third = manoeuvre.lanes
     begin = 10.0
-    assert [lane.x_from - begin for lane in manoeuvre.lanes] == [0.0, 45.0, 95.0]
-    assert [lane.x_to - lane.x_from for lane in manoeuvre.lanes] == [15.0, 25.0, 15.0]
+    assert [lane.x[0] - begin for lane in manoeuvre.lanes] == [0.0, 45.0, 95.0]
+    assert [lane.x[1] - lane.x[0] for lane in manoeuvre.lanes] == [15.0, 25.0, 15.0]
     for lane, share in zip(manoeuvre.lanes, (1.1, 1.2, 1.3), strict=True):
-        assert lane.y_to - lane.y_from == pytest.approx(share * width + 0.25)
+        assert lane.y[1] - lane.y[0] == pytest.approx(share * width + 0.25)
     assert first.centre == pytest.approx(0.0)
-    assert second.y_from - first.y_from == pytest.approx(3.5)
-    assert third.y_from == pytest.approx(first.y_from)
+    assert second.y[0] - first.y[0] == pytest.approx(3.5)
+    assert third.y[0] == pytest.approx(first.y[0])
 
 
 def test_cones_stand_outside_their_lanes():
     manoeuvre = LaneChange()
     (cones, path) = manoeuvre.road().features
-    assert len(cones["points"]) == 18 and path["kind"] == "path"
+    assert len(cones.points) == 18 and isinstance(path, Course)
     for lane in manoeuvre.lanes:
-        mine = [point for point in cones["points"] if lane.x_from <= point[0] <= lane.x_to]
-        assert sorted({x for x, _ in mine}) == pytest.approx([lane.x_from, (lane.x_from + lane.x_to) / 2, lane.x_to])
-        assert sorted({y for _, y in mine}) == pytest.approx([lane.y_from - CONE, lane.y_to + CONE])
+        mine = [point for point in cones.points if lane.x[0] <= point[0] <= lane.x[1]]
+        assert sorted({x for x, _ in mine}) == pytest.approx([lane.x[0], (lane.x[0] + lane.x[1]) / 2, lane.x[1]])
+        assert sorted({y for _, y in mine}) == pytest.approx([lane.y[0] - CONE, lane.y[1] + CONE])
 
 
 def test_the_driver_s_path_joins_the_middles_of_the_lanes_smoothly():
@@ -329,7 +330,7 @@ def test_the_driver_s_path_joins_the_middles_of_the_lanes_smoothly():
     y = manoeuvre.path(x)
     for lane in (first, second, third):
         room = 8.0
-        inside = (x >= lane.x_from + (0 if lane is first else room)) & (x <= lane.x_to - (0 if lane is third else room))
+        inside = (x >= lane.x[0] + (0 if lane is first else room)) & (x <= lane.x[1] - (0 if lane is third else room))
         np.testing.assert_allclose(y[inside], lane.centre, atol=1e-12)
     curvature = np.gradient(np.gradient(y, x), x)
     assert np.abs(np.diff(curvature)).max() < 2e-4, "no jump of the curvature"

@@ -14,8 +14,9 @@ from susp_mj.driver import Driver, Path
 from susp_mj.elements import CONTACT_TYRES, ContactLaw, ContactTyre, register_contact_tyre
 from susp_mj.elements.car import CAR_NUMERIC, HEAD, SIGNALS, WHEEL, car_block, table, table_of_tables
 from susp_mj.errors import InputError, SimulationError
+from susp_mj.features import Patch
 from susp_mj.plant import Plant
-from susp_mj.roads import Patch, Road, cosine_bump
+from susp_mj.roads import Road, cosine_bump
 from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, K_AND_C, build, write
 from vehicles.reading import load_vehicle
@@ -260,7 +261,7 @@ def test_locked_wheels_stand_still_and_the_car_stops_and_stays(saloon):
 
 
 def test_split_friction_turns_the_car_towards_the_grip(saloon):
-    road = Road(patches=(Patch(15.0, 1e3, -10.0, 0.0, 0.3),))
+    road = Road(patches=(Patch((15.0, 1e3), (-10.0, 0.0), 0.3),))
     inputs = {"brake_pedal": [(1.0, 0.0), (1.1, 0.4)], "speed_control": [(0.0, 1.0), (1.0, 1.0), (1.001, 0.0)]}
     run = simulate(saloon, Drive(duration=1.8, speed=22.0, ground=road, inputs=inputs))
     assert run["fr_longitudinal_force"][-1] > run["fl_longitudinal_force"][-1] + 500  # braking forces are negative
@@ -271,7 +272,7 @@ def test_friction_patch_scales_what_a_locked_wheel_transmits(saloon):
     inputs = {"brake_pedal": [(0.3, 0.0), (0.4, 1.0)], "speed_control": [(0.0, 1.0), (0.3, 1.0), (0.301, 0.0)]}
     means = []
     for friction in (1.0, 0.5):
-        road = Road(patches=(Patch(-10.0, 1e3, -10.0, 10.0, friction),))
+        road = Road(patches=(Patch((-10.0, 1e3), (-10.0, 10.0), friction),))
         run = simulate(saloon, Drive(duration=1.8, speed=25.0, ground=road, inputs=inputs))
         means.append(run["fl_longitudinal_force"][-300:].mean() / run["fl_wheel_load"][-300:].mean())
     tyre = load_vehicle("s_class").front.handling_tyre
@@ -330,7 +331,7 @@ def test_the_driver_follows_a_circle_and_a_lane_change(saloon):
 
 
 def test_a_car_that_falls_over_says_so(saloon):
-    road = Road(patches=(Patch(-1e3, 1e3, -1e3, 1e3, 3.0),))
+    road = Road(patches=(Patch((-1e3, 1e3), (-1e3, 1e3), 3.0),))
     with pytest.raises(SimulationError, match="the car fell over at t = "):
         simulate(
             saloon,

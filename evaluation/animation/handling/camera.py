@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from susp_mj.features import Cones, Gust
 from susp_mj.run import Run
 
 from ..cameras import CAMERAS, Camera
@@ -26,8 +27,7 @@ def camera_for(run: Run) -> Camera:
 
     On a rig the front, if the body rolls or the wheels are steered.
     """
-    features = {str(feature.get("kind")) for feature in features_of(run)}
-    if features & {"cones", "gust"}:
+    if any(isinstance(feature, Cones | Gust) for feature in features_of(run)):
         return CAMERAS["chase"]
     bends = float(np.abs(run["lateral_acceleration"]).max()) > _CORNERING
     turned = float(run["speed"].max()) < _STANDS and any(

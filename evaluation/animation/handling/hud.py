@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from susp_mj.features import Bump, Roughness
 from susp_mj.run import Run
 
 from ..chart import Chart, Signal
@@ -93,9 +94,7 @@ class HandlingHud(WheelsHud):
         """What the manoeuvre is about."""
         if self._bends():
             return SUBJECTS["lateral_acceleration"]
-        uneven = any(
-            feature.get("kind") in ("bump", "random") for clip in self.clips for feature in features_of(clip.run)
-        )
+        uneven = any(isinstance(feature, Bump | Roughness) for clip in self.clips for feature in features_of(clip.run))
         if not uneven and max(_largest(clip.run, "longitudinal_acceleration") for clip in self.clips) > _MOVES:
             return SUBJECTS["longitudinal_acceleration"]
         standing = max(_largest(clip.run, "speed") for clip in self.clips) < _STANDS

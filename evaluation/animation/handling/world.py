@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
+from susp_mj.features import Bump, Circle, Cones, Course, CrossSlope, Feature, Gust, Patch
 from susp_mj.names import channel_name
 from susp_mj.run import Run
 
@@ -64,7 +65,7 @@ def proving_ground(picture: Picture, motions: Sequence[Motion]) -> None:
         picture.material(name, tone, 0.1, 0.1)
     _course(picture, base, motions, features)
     for number, feature in enumerate(features):
-        draw = _FEATURES.get(str(feature.get("kind")))
+        draw = _DRAWN.get(type(feature))
         if draw:
             draw(picture, base, f"feature{number}", feature, leader)
     if max(motion.travelled() for motion in motions) > 1.0 and uneven[1] > _FLAT:
@@ -74,9 +75,7 @@ def proving_ground(picture: Picture, motions: Sequence[Motion]) -> None:
 
 def cross_slope(run: Run) -> float:
     """Rise of the ground per metre to the left."""
-    return next(
-        (float(feature.get("slope", 0.0)) for feature in features_of(run) if feature.get("kind") == "cross_slope"), 0.0
-    )
+    return next((feature.slope for feature in features_of(run) if isinstance(feature, CrossSlope)), 0.0)
 
 
 def add_plates(picture: Picture, motion: Motion) -> None:
@@ -144,11 +143,11 @@ def _tile(count: int) -> np.ndarray:
     return (np.clip(tone[..., None] * [0.985, 1.0, 1.025], 0, 1) * 255).astype(np.uint8)
 
 
-def _course(picture: Picture, base: Any, motions: Sequence[Motion], features: Sequence[Mapping[str, Any]]) -> None:
+def _course(picture: Picture, base: Any, motions: Sequence[Motion], features: Sequence[Feature]) -> None:
     """The lane along the x axis or along the path to be kept, or the circle to be driven."""
-    path = next((feature for feature in features if feature.get("kind") == "path"), None)
-    radius = path.get("radius") if path else None
-    if isinstance(radius, (int, float)) and radius:
+    path = next((feature for feature in features if isinstance(feature, Course | Circle)), None)
+    if isinstance(path, Circle):
+        radius = path.radius
         rings = [
             ground.strip(ground.circle(0.0, radius, abs(radius) + off), _LINE, _PAINT) for off in (-LANE / 2, LANE / 2)
         ]
@@ -172,8 +171,8 @@ def _course(picture: Picture, base: Any, motions: Sequence[Motion], features: Se
     )
     gate = ground.plate((-0.12, 0.12), (-LANE / 2, LANE / 2), _PAINT + 0.001)
     picture.mesh(base, "lane", ground.together([*edges, *far, gate]), "white")
-    if path and {"x", "y"} <= path.keys() and len(np.atleast_1d(path["x"])) > 1:
-        points = np.column_stack([np.asarray(path["x"], float), np.asarray(path["y"], float)])
+    if path is not None:
+        points = np.column_stack([path.x, path.y])
         grid = np.linspace(points[0, 0], points[-1, 0], max(int(np.ptp(points[:, 0])), 2))
         points = np.column_stack([grid, np.interp(grid, points[:, 0], points[:, 1])])
         picture.mesh(base, "path", ground.together(ground.dashes(points, 0.10, _PAINT + 0.003, 0.8, 1.2)), "yellow")
@@ -207,30 +206,17 @@ def _spaced(points: np.ndarray, least: float) -> np.ndarray:
     return first
 
 
-def _span(feature: Mapping[str, Any], name: str, default: tuple[float, float]) -> tuple[float, float]:
-    """Where a feature begins and ends in x or y [m]: its ``x = [from, to]``, or ``x_from`` and ``x_to``."""
-    pair = feature.get(name)
-    one, other = (
-        pair
-        if isinstance(pair, Sequence) and len(pair) == 2
-        else (feature.get(f"{name}_from"), feature.get(f"{name}_to"))
-    )
-    return (float(one) if one is not None else default[0], float(other) if other is not None else default[1])
-
-
-def _bump(picture: Picture, base: Any, name: str, feature: Mapping[str, Any], run: Run) -> None:
+def _bump(picture: Picture, base: Any, name: str, bump: Bump, run: Run) -> None:
     """Yellow lines across the road where a bump begins and ends; its shape is the road's."""
-    x, y = _span(feature, "x", (0.0, 0.0)), _span(feature, "y", (-LANE / 2, LANE / 2))
-    if x[1] > x[0]:
-        lines = [ground.plate((at - 0.06, at + 0.06), y, _PAINT + 0.004) for at in (x[0] - 0.06, x[1] + 0.06)]
-        picture.mesh(base, name, ground.together(lines), "yellow")
+    x, y = bump.x, bump.y or (-LANE / 2, LANE / 2)
+    lines = [ground.plate((at - 0.06, at + 0.06), y, _PAINT + 0.004) for at in (x[0] - 0.06, x[1] + 0.06)]
+    picture.mesh(base, name, ground.together(lines), "yellow")
 
 
-def _patch(picture: Picture, base: Any, name: str, feature: Mapping[str, Any], run: Run) -> None:
+def _patch(picture: Picture, base: Any, name: str, patch: Patch, run: Run) -> None:
     """A slippery or wet stretch: lighter the more slippery."""
-    x, y = _span(feature, "x", (0.0, 50.0)), _span(feature, "y", (-LANE, LANE))
-    x, y = _bounded(x, run["position_x"]), _bounded(y, run["position_y"])
-    picture.mesh(base, name, ground.plate(x, y, 0.003), "ice" if float(feature.get("friction", 1.0)) < 0.45 else "wet")
+    x, y = _bounded(patch.x, run["position_x"]), _bounded(patch.y, run["position_y"])
+    picture.mesh(base, name, ground.plate(x, y, 0.003), "ice" if patch.friction < 0.45 else "wet")
     picture.mesh(base, f"{name}_edge", ground.together(ground.frame(x, y, 0.08, _PAINT - 0.002)), "white")
 
 
@@ -239,39 +225,24 @@ def _bounded(span: tuple[float, float], places: np.ndarray) -> tuple[float, floa
     return max(span[0], float(places.min()) - 200.0), min(span[1], float(places.max()) + 200.0)
 
 
-def _cones(picture: Picture, base: Any, name: str, feature: Mapping[str, Any], run: Run) -> None:
+def _cones(picture: Picture, base: Any, name: str, cones: Cones, run: Run) -> None:
     """Traffic cones at the places given."""
-    points = feature.get("points")
-    if points is None:
-        points = np.column_stack([np.atleast_1d(feature.get("x", [])), np.atleast_1d(feature.get("y", []))])
-    places = np.asarray(points, float).reshape(-1, 2)
-    if not len(places):
-        return
     picture.asset(f"{name}_cone", ground.cone())
     picture.asset(f"{name}_band", ground.cone_band())
-    for x, y in places.tolist():
+    for x, y in cones.points:
         picture.copy(base, f"{name}_cone", "orange", (x, y, 0.0))
         picture.copy(base, f"{name}_band", "white", (x, y, 0.0))
         picture.shape(base, "box", (0.17, 0.17, 0.015), "orange", (x, y, 0.015))
 
 
-def _gust(picture: Picture, base: Any, name: str, feature: Mapping[str, Any], run: Run) -> None:
-    """Zone of the side wind, with arrows that point with it; taken from the wind that the car met where no place is
-    given."""
-    wind = run["wind_y"] if "wind_y" in run else np.zeros_like(run.time)
-    blows = np.flatnonzero(np.abs(wind) > 0.05 * max(float(np.abs(wind).max()), 1e-9))
-    met = (
-        (float(run["position_x"][blows[0]]), float(run["position_x"][blows[-1]]))
-        if len(blows) and np.any(wind)
-        else (0.0, 0.0)
-    )
-    x, y = _span(feature, "x", met), _span(feature, "y", (-LANE, LANE))
+def _gust(picture: Picture, base: Any, name: str, gust: Gust, run: Run) -> None:
+    """Zone of the side wind, with arrows that point with it."""
+    x, y = gust.x, (-LANE, LANE)
     if x[1] - x[0] < 0.5:
         return
-    towards = float(np.sign(wind[int(np.abs(wind).argmax())])) or float(np.sign(feature.get("wind", 1.0))) or 1.0
     picture.mesh(base, name, ground.plate(x, y, 0.003), "gust")
     arrows = []
-    wing = 0.55 * towards
+    wing = 0.55 if gust.wind >= 0 else -0.55
     for at in np.arange(x[0] + 1.5, x[1] - 0.5, 3.0):
         for y_tip in (-0.75 * LANE, 0.75 * LANE):
             lines = (
@@ -284,4 +255,5 @@ def _gust(picture: Picture, base: Any, name: str, feature: Mapping[str, Any], ru
         picture.mesh(base, f"{name}_arrows", ground.together(arrows), "wind")
 
 
-_FEATURES = {"bump": _bump, "patch": _patch, "cones": _cones, "gust": _gust}
+_DRAWN: dict[type[Feature], Callable[..., None]] = {Bump: _bump, Patch: _patch, Cones: _cones, Gust: _gust}
+"""What is laid on the ground for a feature; the others are the road's shape, or the course."""

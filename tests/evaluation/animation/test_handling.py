@@ -27,6 +27,7 @@ from evaluation.animation.window import window_of
 from evaluation.colours import COLOURS, rgb
 from manoeuvres import LaneChange
 from susp_mj import InputError, simulate
+from susp_mj.features import Bump, Circle, Cones, Course, CrossSlope, Gust, Patch, as_json
 from susp_mj.names import CORNERS, channel_name
 from susp_mj.run import Run, described
 from vehicles import load_vehicle
@@ -144,7 +145,7 @@ def driven(
         "model": "handling",
         "manoeuvre": {"kind": kind, "speed": speed},
         "facts": FACTS,
-        "road": {"features": [dict(feature) for feature in features]},
+        "road": {"features": as_json(features)},
         "step": STEP,
     }
     return Run(time, channels, meta)
@@ -297,7 +298,7 @@ def test_saloon_is_mirrored_whole_and_leaves_room_for_its_wheels(wheelbase, half
 
 # ---- what is chosen --------------------------------------------------------------------------------------------------
 
-CONES = {"kind": "cones", "points": [[20.0, 1.2], [20.0, -1.2], [32.0, 1.2], [32.0, -1.2]], "radius": 0.15}
+CONES = Cones(((20.0, 1.2), (20.0, -1.2), (32.0, 1.2), (32.0, -1.2)), 0.15)
 
 
 @pytest.mark.parametrize(
@@ -306,7 +307,7 @@ CONES = {"kind": "cones", "points": [[20.0, 1.2], [20.0, -1.2], [32.0, 1.2], [32
         (driven(), "front", 1.0),
         (driven(curve(1, 2, -5.0), duration=3.0), "front", -1.0),
         (driven(curve(1, 2, 5.0), duration=3.0, features=[CONES]), "chase", 1.0),
-        (driven(None, duration=3.0, features=[{"kind": "gust", "x": [20.0, 50.0], "wind": 20.0}]), "chase", -1.0),
+        (driven(None, duration=3.0, features=[Gust((20.0, 50.0), 20.0)]), "chase", -1.0),
         (driven(None, duration=3.0, brake=curve(1, 1.2, -7.0)), "side", -1.0),
     ],
 )
@@ -367,7 +368,7 @@ def test_whole_drive_in_real_time_and_a_bump_in_slow_motion():
     assert bump.playback < 1 and bump.start < 20 / 14 < bump.end < 4.0
 
 
-BUMP = {"kind": "bump", "x": [20.0, 22.0], "height": 0.08}
+BUMP = Bump((20.0, 22.0), 0.08)
 
 
 def bump_road(x, y):
@@ -378,8 +379,8 @@ def test_driver_circle_is_a_feature():
     run = driven(duration=1.0)
     circle = {**run.meta, "manoeuvre": {"kind": "steady_circle", "radius": -40.0}}
     followed = {**run.channels, "path_deviation": described("path_deviation", 0 * run.time)}
-    assert features_of(Run(run.time, followed, circle)) == [{"kind": "path", "radius": -40.0}]
-    assert features_of(run) == []
+    assert features_of(Run(run.time, followed, circle)) == (Circle(-40.0),)
+    assert features_of(run) == ()
 
 
 @pytest.mark.parametrize(
@@ -414,13 +415,13 @@ def ground_of(run):
 def test_features_lie_where_the_manoeuvre_says():
     features = [
         CONES,
-        {"kind": "patch", "x": [30.0, 60.0], "y": [0.0, 3.0], "friction": 0.3},
-        {"kind": "gust", "x": [70.0, 95.0], "wind": -15.0},
-        {"kind": "path", "x": [0.0, 40.0, 80.0], "y": [0.0, 2.0, 0.0]},
+        Patch((30.0, 60.0), (0.0, 3.0), 0.3),
+        Gust((70.0, 95.0), -15.0),
+        Course((0.0, 40.0, 80.0), (0.0, 2.0, 0.0)),
     ]
     model, data = ground_of(driven(None, duration=5.0, features=features))
     cones = [k for k in range(model.ngeom) if model.geom_dataid[k] == model.mesh("feature0_cone").id]
-    assert sorted(map(tuple, np.round(data.geom_xpos[cones][:, :2], 3).tolist())) == sorted(map(tuple, CONES["points"]))
+    assert sorted(map(tuple, np.round(data.geom_xpos[cones][:, :2], 3).tolist())) == sorted(map(tuple, CONES.points))
     patch = vertices(model, data, "feature1")
     assert patch.min(axis=0)[:2] == pytest.approx([30, 0], abs=1e-6) and patch.max(axis=0)[:2] == pytest.approx(
         [60, 3], abs=1e-6
@@ -432,7 +433,7 @@ def test_features_lie_where_the_manoeuvre_says():
 
 
 def test_circle_passes_under_the_car():
-    model, data = ground_of(driven(lambda t: 0 * t + 8.0, duration=5.0, features=[{"kind": "path", "radius": 50.0}]))
+    model, data = ground_of(driven(lambda t: 0 * t + 8.0, duration=5.0, features=[Circle(50.0)]))
     middle = vertices(model, data, "middle")
     assert np.hypot(middle[:, 0], middle[:, 1] - 50.0) == pytest.approx(50.0, abs=0.06)
 
@@ -450,7 +451,7 @@ def test_bump_is_as_high_as_the_road_under_the_wheels():
 
 def test_sloping_road_passes_under_the_wheels():
     slope = 0.03
-    run = driven(None, duration=3.0, road=lambda x, y: slope * y, features=[{"kind": "cross_slope", "slope": slope}])
+    run = driven(None, duration=3.0, road=lambda x, y: slope * y, features=[CrossSlope((0.0, 1.0), slope)])
     model, data = ground_of(run)
     base = data.body("ground").xmat.reshape(3, 3)
     for station, wheel in Motion(run).pose(1.0).wheels.items():
