@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, model_validator
@@ -32,9 +33,6 @@ from susp_mj.units import Inertia, Length, Mass, PositiveLength
 AxleName = Literal["front", "rear"]
 DESIGN_LOAD = "ko"
 """Name of the load case of the design position (Konstruktionslage), which every vehicle has."""
-HANDLING_AXLE = ("track", "unsprung_mass", "wheel_inertia", "kinematics", "compliance", "handling_tyre")
-HANDLING_CAR = ("steering", "powertrain", "brakes", "aerodynamics")
-"""What model `handling` needs of each axle and of the car, beyond what the oscillation models need."""
 
 
 def _status(text: str) -> str:
@@ -87,6 +85,15 @@ class Axle(Description):
     damper_ratio: MotionRatio | None = None
 
 
+@dataclass(frozen=True)
+class Body:
+    """The whole sprung body: mass [kg], centre of gravity [m] and moments of inertia [kg m²] as of `LoadCase`."""
+
+    mass: float
+    cg: tuple[float, float, float]
+    inertia: tuple[float, float, float]
+
+
 class LoadCase(Description):
     """A state of loading: the whole sprung body, or only the sprung mass on one wheel of an axle.
 
@@ -101,6 +108,13 @@ class LoadCase(Description):
     cg: tuple[Length, Length, Length] | None = None
     inertia: tuple[Inertia, Inertia, Inertia] | None = None
     corner_mass: dict[AxleName, Mass] | None = None
+
+    @property
+    def body(self) -> Body | None:
+        """The whole sprung body; None for a car that is known by the masses on its wheels."""
+        if self.sprung_mass is None or self.cg is None or self.inertia is None:
+            return None
+        return Body(self.sprung_mass, self.cg, self.inertia)
 
     @model_validator(mode="after")
     def _one_form(self) -> LoadCase:
@@ -205,32 +219,6 @@ class Vehicle(Description):
             raise InputError(f"{self.source} has no load case '{name}'; {choices(self.loads, name)}", key="load")
         return self.loads[name]
 
-    def handling_needs(self) -> list[str]:
-        """Dotted paths of what model `handling` still needs, in the order of the file; empty for a complete car.
-
-        A compliance may be an empty table (a rigid suspension), but must be there.
-        """
-        missing = [key for key in ("wheelbase", "wheel_radius") if getattr(self, key) is None]
-        missing += [f"loads.{name}.sprung_mass" for name, case in self.loads.items() if case.sprung_mass is None]
-        for name in ("front", "rear"):
-            axle: Axle | None = getattr(self, name)
-            missing += (
-                [name] if axle is None else [f"{name}.{key}" for key in HANDLING_AXLE if getattr(axle, key) is None]
-            )
-        return missing + [key for key in HANDLING_CAR if getattr(self, key) is None]
-
-    def check_handling(self) -> None:
-        """Refuse a car that model `handling` cannot drive.
-
-        Raises:
-            InputError: naming everything that is missing.
-        """
-        missing = self.handling_needs()
-        if missing:
-            raise InputError(
-                f"model 'handling' needs what this car does not give: {', '.join(missing)}", source=self.source
-            )
-
     def without_friction(self) -> Vehicle:
         """The same car without linkage and damper friction, for linearisation and closed forms."""
         axles = {}
@@ -253,24 +241,23 @@ class Vehicle(Description):
             InputError: the load case does not tell.
         """
         case = self.load(load)
-        if case.corner_mass is not None:
-            if axle not in case.corner_mass:
-                raise InputError(
-                    f"gives no mass for the {axle} axle", key=f"loads.{load}.corner_mass", source=self.source
-                )
-            return case.corner_mass[axle]
+        if case.body is not None:
+            return case.body.mass * self._share(axle, case.body.cg[0], load) / 2
+        if case.corner_mass is None or axle not in case.corner_mass:
+            raise InputError(f"gives no mass for the {axle} axle", key=f"loads.{load}.corner_mass", source=self.source)
+        return case.corner_mass[axle]
+
+    def _share(self, axle: str, cg_x: float, load: str) -> float:
+        """Part of the sprung mass that an axle carries."""
         if self.wheelbase is None:
             raise InputError(
                 "is required to share the sprung mass between the axles", key="wheelbase", source=self.source
             )
-        assert case.sprung_mass is not None and case.cg is not None
-        behind_front = -case.cg[0]
-        if not 0 < behind_front < self.wheelbase:
+        if not 0 < -cg_x < self.wheelbase:
             raise InputError(
-                f"{case.cg[0]} m is not allowed; the centre of gravity lies between the axles, from 0 to "
-                f"-{self.wheelbase} m",
+                f"{cg_x} m is not allowed; the centre of gravity lies between the axles, from 0 to -{self.wheelbase} m",
                 key=f"loads.{load}.cg.0",
                 source=self.source,
             )
-        share = behind_front / self.wheelbase
-        return case.sprung_mass * (share if axle == "rear" else 1 - share) / 2
+        rear = -cg_x / self.wheelbase
+        return rear if axle == "rear" else 1 - rear

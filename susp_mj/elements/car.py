@@ -99,18 +99,32 @@ def table(places: Sequence[float], *curves: Sequence[float] | np.ndarray, smooth
             which must not overshoot.
         count: number of even points.
     """
+    return tables(places, [curves], smooth=smooth, count=count)[0]
+
+
+def tables(
+    places: Sequence[float],
+    sets: np.ndarray | Sequence[Sequence[Sequence[float] | np.ndarray]],
+    *,
+    smooth: bool,
+    count: int = 33,
+) -> list[np.ndarray]:
+    """A `table` of each set of curves over one quantity, all carried by one spline.
+
+    Args:
+        places: (n,) as for `table`.
+        sets: (m, k, n), k curves in each of m tables.
+        smooth, count: as for `table`.
+    """
     from scipy.interpolate import CubicSpline, PchipInterpolator
 
-    x = np.asarray(places, float)
+    x, y = np.asarray(places, float), np.array(sets, float)
     even, spacing = np.linspace(x[0], x[-1], count, retstep=True)
-    columns: list[np.ndarray] = []
-    for values in curves:
-        y = np.asarray(values, float)
-        curve = (
-            CubicSpline(x, y, bc_type="not-a-knot" if len(x) > 2 else "natural") if smooth else PchipInterpolator(x, y)
-        )
-        columns += [curve(even), curve(even, 1) * spacing]
-    return np.concatenate([[even[0], 1 / spacing, count], np.column_stack(columns).ravel()])
+    ends = "not-a-knot" if len(x) > 2 else "natural"
+    curve = CubicSpline(x, y, axis=2, bc_type=ends) if smooth else PchipInterpolator(x, y, axis=2)
+    numbers = np.stack([curve(even), curve(even, 1) * spacing], axis=3)  # table, curve, point, value and slope
+    rows = numbers.swapaxes(1, 2).reshape(len(y), -1)
+    return [np.concatenate([[even[0], 1 / spacing, count], row]) for row in rows]
 
 
 def table_of_tables(start: float, spacing: float, tables: Sequence[np.ndarray]) -> np.ndarray:

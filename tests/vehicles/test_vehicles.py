@@ -13,6 +13,7 @@ import vehicles
 from susp_mj import InputError
 from susp_mj.elements import GRAVITY
 from vehicles import available_vehicles, load_vehicle
+from vehicles.complete import CompleteCar, handling_needs
 from vehicles.mjcf import MODELS, build
 
 FOLDER = Path(vehicles.__file__).parent
@@ -118,8 +119,9 @@ def test_several_cars_are_complete_for_handling():
 def test_a_car_with_a_steering_is_complete(name, chosen):
     """In every set of characteristics; and its tables reach from stop to stop."""
     vehicle = load_vehicle(name, chosen or None)
-    assert vehicle.handling_needs() == []
-    vehicle.check_handling()
+    assert handling_needs(vehicle) == []
+    for load in vehicle.loads:
+        assert CompleteCar.of(vehicle, load).cg_height > 0.0
     for axle in (vehicle.front, vehicle.rear):
         assert axle.kinematics.travel[0] <= axle.spring.stops.rebound
         assert axle.kinematics.travel[-1] >= axle.spring.stops.compression
@@ -127,17 +129,15 @@ def test_a_car_with_a_steering_is_complete(name, chosen):
 
 def test_what_a_car_lacks_is_listed(vehicle_file):
     with pytest.raises(InputError) as caught:
-        load_vehicle(vehicle_file).check_handling()
+        CompleteCar.of(load_vehicle(vehicle_file), "ko")
     assert str(caught.value) == (
         "car.toml: model 'handling' needs what this car does not give: wheelbase, wheel_radius, loads.ko.sprung_mass, "
         "loads.heavy.sprung_mass, front, rear.track, rear.wheel_inertia, rear.kinematics, rear.compliance, "
         "rear.handling_tyre, "
         "steering, powertrain, brakes, aerodynamics"
     )
-    needs = load_vehicle(
-        "s_class", overrides={"brakes": None, "rear.wheel_inertia": None, "rear.compliance": {}}
-    ).handling_needs()
-    assert needs == ["rear.wheel_inertia", "brakes"]
+    car = load_vehicle("s_class", overrides={"brakes": None, "rear.wheel_inertia": None, "rear.compliance": {}})
+    assert handling_needs(car) == ["rear.wheel_inertia", "brakes"]
 
 
 def test_a_tyre_file_lies_beside_the_vehicle_or_ships(vehicle_file):

@@ -11,16 +11,16 @@ import mujoco
 import numpy as np
 
 from susp_mj.elements import AntiRollBar, Element
-from susp_mj.errors import InputError
 from susp_mj.names import channel_name
 
-from ..vehicle import Axle
+from ..complete import LoadedAxle
 from .parts import POINT_MASS, Form, ModelBuilder, Partner
 from .topology import Topology
 
 BODY_HEIGHT = 0.65
 """Height of the drawn body above the ground [m]."""
 _WHEEL_RADIUS = 0.33
+_SPRUNG = "models with sprung wheels"
 
 
 @dataclass(frozen=True)
@@ -29,20 +29,18 @@ class Corner:
 
     Attributes:
         station: prefix of its names.
-        axle_name: ``front`` or ``rear``.
         x, y: place of the wheel from the body's centre of gravity [m].
         side: +1 left, -1 right, 0 for a one-sided model.
-        axle: the vehicle's values.
+        axle: its values.
         road: road height under the wheel.
         partner: station of the other wheel of the axle, if there is one.
     """
 
     station: str
-    axle_name: str
     x: float
     y: float
     side: int
-    axle: Axle
+    axle: LoadedAxle
     road: Form
     partner: str | None
 
@@ -76,7 +74,7 @@ def add_axle(
 
 def _elements(corner: Corner) -> dict[str, Element]:
     """Spring, stops, damper, linkage friction and bar of a corner, by part; the bar's rate is that at the wheel."""
-    axle = corner.axle
+    axle = corner.axle.values
     elements: dict[str, Element] = {"spring": axle.spring, "stop": axle.spring.stops, "damper": axle.damper}
     if axle.friction is not None:
         elements["friction"] = axle.friction
@@ -108,7 +106,7 @@ def add_suspension(builder: ModelBuilder, corner: Corner, deflection: Form, *, l
 def note_stiffness(builder: ModelBuilder, corner: Corner, mass: float, *, tyre: bool) -> None:
     """Time constants of a corner's rates on the mass [kg] that feels them: ``m/c`` of dampers, ``sqrt(m/k)`` of
     springs."""
-    axle, where = corner.axle, corner.axle_name
+    axle, where = corner.axle.values, corner.axle.name
     arctan_slope = 2 / math.pi * 201.7
     if axle.friction is not None:
         force = axle.friction.force
@@ -135,7 +133,7 @@ def _travel_outputs(builder: ModelBuilder, corner: Corner, deflection: Form) -> 
     """Channels of the suspension travel, and its limits."""
     builder.output("suspension_deflection", corner.station, *deflection.terms("qpos", "input"))
     builder.output("suspension_speed", corner.station, *deflection.terms("qvel", "input_rate"))
-    builder.travel(corner.station, corner.axle, corner.axle_name)
+    builder.travel(corner.station, corner.axle)
 
 
 def _massless_wheel(builder: ModelBuilder, position: dict[str, Form], corner: Corner) -> None:
@@ -148,7 +146,7 @@ def _massless_wheel(builder: ModelBuilder, position: dict[str, Form], corner: Co
 
 def _sprung_wheel(builder: ModelBuilder, body: Any, position: dict[str, Form], corner: Corner) -> None:
     """A wheel with mass, child of the heaving body on joint ``travel``, on a tyre that cannot pull."""
-    mass = _of_axle(builder, corner, "unsprung_mass")
+    mass = corner.axle.required("unsprung_mass", _SPRUNG)
     wheel = body.add_body(name=corner.name("wheel"), pos=[corner.x, corner.y, 0], mass=mass, **POINT_MASS)
     travel = builder.joint(wheel, corner.name("travel"), "slide", [0, 0, 1])
     _draw_wheel(builder, wheel, [0, 0])
@@ -201,12 +199,12 @@ def _sprung_rigid_axle(builder: ModelBuilder, body: Any, position: dict[str, For
     left, right = corners
     axle, half_track = left.axle, (left.y - right.y) / 2
     lever, offset = lever_of(axle), (left.y + right.y) / 2
-    mass = 2 * _of_axle(builder, left, "unsprung_mass")
-    inertia = axle.roll_inertia if axle.roll_inertia is not None else mass * half_track**2
+    mass = 2 * axle.required("unsprung_mass", _SPRUNG)
+    inertia = mass * half_track**2 if axle.values.roll_inertia is None else axle.values.roll_inertia
     place = {**POINT_MASS, "inertia": [inertia] * 3}
-    beam = body.add_body(name=f"{left.axle_name}_axle", pos=[left.x, offset, 0], mass=mass, **place)
-    heave = builder.joint(beam, f"{left.axle_name}_axle_heave", "slide", [0, 0, 1])
-    roll = builder.joint(beam, f"{left.axle_name}_axle_roll", "hinge", [1, 0, 0])
+    beam = body.add_body(name=f"{axle.name}_axle", pos=[left.x, offset, 0], mass=mass, **place)
+    heave = builder.joint(beam, f"{axle.name}_axle_heave", "slide", [0, 0, 1])
+    roll = builder.joint(beam, f"{axle.name}_axle_roll", "hinge", [1, 0, 0])
     for corner in corners:
         _draw_wheel(builder, beam, [0, corner.y - offset])
         arm = corner.y - offset
@@ -218,7 +216,7 @@ def _sprung_rigid_axle(builder: ModelBuilder, body: Any, position: dict[str, For
 
 def _tyre(builder: ModelBuilder, corner: Corner, height: Form) -> None:
     """Tyre spring between road and wheel centre, and the wheel's channels."""
-    builder.force(corner.name("tyre"), _of_axle(builder, corner, "tyre"), corner.road - height)
+    builder.force(corner.name("tyre"), corner.axle.required("tyre", _SPRUNG), corner.road - height)
     builder.output("wheel_displacement", corner.station, *height.terms("qpos", "input"))
     builder.output("wheel_acceleration", corner.station, *height.terms("qacc", "input"))
     builder.output("wheel_load", corner.station, ("actuator_force", corner.name("tyre"), -1.0))
@@ -230,15 +228,6 @@ def _draw_wheel(builder: ModelBuilder, body: Any, place: list[float]) -> None:
     builder.draw(body, shape, [_WHEEL_RADIUS, 0.11, 0], [0.1, 0.1, 0.1, 1], pos=[*place, drop], quat=turned)
 
 
-def lever_of(axle: Axle) -> float:
+def lever_of(axle: LoadedAxle) -> float:
     """Spring base over track of a rigid axle."""
-    return (axle.spring_base or axle.track or 1.0) / (axle.track or 1.0)
-
-
-def _of_axle(builder: ModelBuilder, corner: Corner, key: str) -> Any:
-    value = getattr(corner.axle, key)
-    if value is None:
-        raise InputError(
-            "is required by models with sprung wheels", key=f"{corner.axle_name}.{key}", source=builder.source
-        )
-    return value
+    return 1.0 if axle.values.spring_base is None else axle.values.spring_base / axle.track

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from susp_mj.elements import GRAVITY, Overturning, Rig
 from susp_mj.errors import InputError
 
-from ..vehicle import Vehicle
 from .axles import Corner, height_at
 from .parts import Form, ModelBuilder
 from .topology import Mass, Topology
@@ -18,9 +17,8 @@ _RIG_FREQUENCY = 2000.0  # rad/s; stiff against every suspension, soft enough fo
 
 def add_lateral(
     builder: ModelBuilder,
-    vehicle: Vehicle,
     topology: Topology,
-    load: str,
+    cg_height: float | None,
     corners: Sequence[Corner],
     position: dict[str, Form],
 ) -> float | None:
@@ -30,16 +28,16 @@ def add_lateral(
     links carry ``V = m_axle a_y z_rc / t`` between body and wheel, up on the left wheel and down on the right, which
     leaves the body ``m a_y h`` about the roll axis, h = h_cg - z_rc. Returns m h [kg m].
     """
-    centre = vehicle.cg_height(load)
-    if "roll" not in position or centre is None or any(corner.axle.roll_centre_height is None for corner in corners):
+    told = (corner.axle.values.roll_centre_height for corner in corners)
+    heights = [height for height in told if height is not None]
+    if "roll" not in position or cg_height is None or len(heights) < len(corners):
         return None
     lever = moment = 0.0
-    for corner in corners:
-        height = corner.axle.roll_centre_height or 0.0
-        mass = 2 * vehicle.corner_mass(corner.axle_name, load)
-        lever += mass / 2 * (centre - height)
-        moment += mass / 2 * (centre if not topology.sprung_wheels else centre - height)
-        lift = corner.side * mass * height / (corner.axle.track or 1.0)
+    for corner, height in zip(corners, heights, strict=True):
+        mass = 2 * corner.axle.corner_mass
+        lever += mass / 2 * (cg_height - height)
+        moment += mass / 2 * (cg_height if not topology.sprung_wheels else cg_height - height)
+        lift = corner.side * mass * height / corner.axle.track
         if lift == 0.0:
             continue
         if topology.sprung_wheels:  # on the wheel only; its reaction is in the body's moment
@@ -53,21 +51,20 @@ def add_lateral(
 
 
 def add_longitudinal(
-    builder: ModelBuilder, vehicle: Vehicle, topology: Topology, load: str, mass: Mass, position: dict[str, Form]
+    builder: ModelBuilder, topology: Topology, cg_height: float | None, mass: Mass, position: dict[str, Form]
 ) -> None:
     """Longitudinal acceleration a_x of the sprung mass (positive forward): pitch moment ``- m a_x h`` over the ground.
 
     The axles transmit it without anti-dive or anti-squat; those belong to a model with wheel paths.
     """
-    height = vehicle.cg_height(load)
-    if "pitch" in position and topology.axles == 2 and height is not None:
-        builder.motor("pitch_moment", position["pitch"], "longitudinal_acceleration", -mass.mass * height)
+    if "pitch" in position and topology.axles == 2 and cg_height is not None:
+        builder.motor("pitch_moment", position["pitch"], "longitudinal_acceleration", -mass.mass * cg_height)
 
 
-def add_seat(builder: ModelBuilder, vehicle: Vehicle, mass: Mass, position: dict[str, Form]) -> None:
+def add_seat(builder: ModelBuilder, seat: Sequence[float] | None, mass: Mass, position: dict[str, Form]) -> None:
     """Vertical acceleration at the driver's seat, in models of the whole body."""
-    if vehicle.driver is not None and "pitch" in position and "roll" in position:
-        point = height_at(position, vehicle.driver[0] - mass.x, vehicle.driver[1] - mass.y)
+    if seat is not None and "pitch" in position and "roll" in position:
+        point = height_at(position, seat[0] - mass.x, seat[1] - mass.y)
         builder.output("seat_acceleration", "", *point.terms("qacc", "input"))
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 import mujoco
 
-from susp_mj.elements import GRAVITY, Rig
+from susp_mj.elements import Rig, Steering
 from susp_mj.elements.car import (
     CAR_SIGNALS,
     RIG_CONTROLS,
@@ -27,9 +27,10 @@ from susp_mj.errors import InputError
 from susp_mj.meaning import Meaning
 from susp_mj.names import CORNERS, QUANTITIES
 
-from ..vehicle import DESIGN_LOAD, Axle, Vehicle
+from ..complete import CompleteCar
+from ..vehicle import Vehicle
 from .axles import Corner, add_suspension, note_stiffness
-from .handling_numbers import RIG_FORCES, Wheel, block, head_numbers, rig_servo
+from .handling_numbers import RIG_FORCES, Wheel, block
 from .parts import POINT_MASS, Form, ModelBuilder
 
 HANDLING = "handling"
@@ -46,7 +47,6 @@ _DRIVING = {
 }
 """Actuators of the car's inputs: the quantity that drives each, if any, and how many inner states it has."""
 _WHEEL_MASS_SHARE, _KNUCKLE_MASS = 0.5, 1e-3
-_SOFTEST = 0.5  # largest static deflection of a tyre, as a share of its radius
 
 
 def handling_specification(vehicle: Vehicle, load: str, rig: str | None) -> tuple[mujoco.MjSpec, Meaning]:
@@ -61,52 +61,20 @@ def handling_specification(vehicle: Vehicle, load: str, rig: str | None) -> tupl
     """
     if rig not in (None, K_AND_C):
         raise InputError(f"no rig '{rig}' for model {HANDLING}; allowed is {K_AND_C}", key="rig")
-    vehicle.check_handling()
+    car = CompleteCar.of(vehicle, load)
     builder = ModelBuilder(f"{vehicle.name}_{HANDLING}", vehicle.source)
     builder.spec.option.disableflags |= (
         mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
     )  # no joint has any
-    case = vehicle.load(load)
-    assert (
-        case.cg is not None
-        and case.sprung_mass is not None
-        and case.inertia is not None
-        and vehicle.wheelbase is not None
-    )
-    wheels = [_wheel(builder, vehicle, station, case.cg) for station in CORNERS]
-    share = -case.cg[0] / vehicle.wheelbase
-    hubs = [(wheels[i].design_height + wheels[i + 1].design_height) / 2 for i in (0, 2)]
-    height = hubs[0] + share * (hubs[1] - hubs[0]) + case.cg[2]
-    if height <= 0:
-        text = f"{case.cg[2]:g} m is not allowed; the centre of gravity would lie {-height:.2f} m below the ground"
-        raise InputError(text, key=f"loads.{load}.cg.2", source=vehicle.source)
-    chassis = builder.spec.worldbody.add_body(
-        name="chassis",
-        pos=[case.cg[0], case.cg[1], height],
-        mass=case.sprung_mass,
-        **{**POINT_MASS, "inertia": list(case.inertia)},
-    )
-    chassis.add_freejoint(name="chassis")
-    middle = [-case.cg[0] - vehicle.wheelbase / 2, 0, 0.1]
-    builder.draw(chassis, mujoco.mjtGeom.mjGEOM_BOX, [2.3, 0.85, 0.35], [0.16, 0.36, 0.6, 1], pos=middle)
+    wheels = [_wheel(builder, car, station) for station in CORNERS]
+    chassis = _add_chassis(builder, car)
     for wheel in wheels:
-        _add_wheel(builder, vehicle, chassis, wheel, -case.cg[2])
+        _add_wheel(builder, car, chassis, wheel)
     for wheel in wheels:
-        _add_forces(builder, vehicle, wheel)
+        _add_forces(builder, car.steering, wheel)
     controls = _add_controls(builder, wheels, rig)
-    unsprung = sum(2 * (_axle(vehicle, name).unsprung_mass or 0.0) for name in ("front", "rear"))
-    total = case.sprung_mass + unsprung
-    head = {
-        **head_numbers(vehicle, total, (case.cg[0], case.cg[1], height)),
-        **rig_servo(case.sprung_mass, case.inertia, rig),
-    }
-    builder.car(lambda model: block(model, vehicle, wheels, head, controls, rig))
+    builder.car(lambda model: block(model, car, wheels, controls, rig))
     _outputs(builder, wheels, rig)
-    steering, mass_share = vehicle.steering, {}
-    assert steering is not None
-    for name in ("front", "rear"):
-        mass_share[f"track_{name}"] = _axle(vehicle, name).track or 0.0
-        mass_share[f"wheel_radius_{name}"] = wheels[0 if name == "front" else 2].design_height
     return builder.finish(
         model=HANDLING,
         vehicle=vehicle.name,
@@ -114,56 +82,56 @@ def handling_specification(vehicle: Vehicle, load: str, rig: str | None) -> tupl
         load=load,
         driving=rig is None,
         facts={
-            "sprung_mass": case.sprung_mass,
-            "unsprung_mass": unsprung,
-            "cg_x": case.cg[0],
-            "cg_y": case.cg[1],
-            "cg_height": height,
-            "wheelbase": vehicle.wheelbase,
-            "steering_ratio": steering.ratio,
-            **mass_share,
+            "sprung_mass": car.body.mass,
+            "unsprung_mass": car.unsprung_mass,
+            "cg_x": car.body.cg[0],
+            "cg_y": car.body.cg[1],
+            "cg_height": car.cg_height,
+            "wheelbase": car.wheelbase,
+            "steering_ratio": car.steering.ratio,
+            "track_front": car.front.track,
+            "wheel_radius_front": car.front.hub_height,
+            "track_rear": car.rear.track,
+            "wheel_radius_rear": car.rear.hub_height,
         },
     )
 
 
-def _axle(vehicle: Vehicle, name: str) -> Axle:
-    axle = vehicle.front if name == "front" else vehicle.rear
-    assert axle is not None
-    return axle
-
-
-def _wheel(builder: ModelBuilder, vehicle: Vehicle, station: str, cg: tuple[float, float, float]) -> Wheel:
-    axle_name, side = ("front" if station[0] == "f" else "rear"), (1 if station[1] == "l" else -1)
-    axle = vehicle.axle(axle_name)
-    assert axle.handling_tyre is not None and vehicle.wheelbase is not None
-    x, y = (0.0 if axle_name == "front" else -vehicle.wheelbase), side * (axle.track or 0.0) / 2
+def _wheel(builder: ModelBuilder, car: CompleteCar, station: str) -> Wheel:
+    axle, x = (car.front, 0.0) if station[0] == "f" else (car.rear, -car.wheelbase)
+    side, partner, mounted = (1, "r", "LEFT") if station[1] == "l" else (-1, "l", "RIGHT")
+    y = side * axle.track / 2
     road = builder.wheel_station(station, x, y)
-    partner = station[0] + ("r" if station[1] == "l" else "l")
-    corner = Corner(station, axle_name, x - cg[0], y - cg[1], side, axle, road, partner)
-    tyre = axle.handling_tyre.mounted("LEFT" if side > 0 else "RIGHT")
-    carried = (vehicle.corner_mass(axle_name, DESIGN_LOAD) + (axle.unsprung_mass or 0.0)) * GRAVITY
-    if carried / tyre.vertical_stiffness > _SOFTEST * tyre.radius:
-        raise InputError(
-            f"{tyre.vertical_stiffness:g} N/m is not allowed; {carried:.0f} N would press the tyre in by "
-            f"{1000 * carried / tyre.vertical_stiffness:.0f} mm, more than half its radius of "
-            f"{1000 * tyre.radius:.0f} mm",
-            key=f"{axle_name}.handling_tyre.vertical_stiffness",
-            source=vehicle.source,
-        )
-    return Wheel(corner, tyre, tyre.radius - carried / tyre.vertical_stiffness)
+    corner = Corner(station, x - car.body.cg[0], y - car.body.cg[1], side, axle, road, station[0] + partner)
+    return Wheel(corner, axle, axle.handling_tyre.mounted(mounted))
 
 
-def _add_wheel(builder: ModelBuilder, vehicle: Vehicle, chassis: Any, wheel: Wheel, z: float) -> None:
+def _add_chassis(builder: ModelBuilder, car: CompleteCar) -> Any:
+    """The sprung body, free to move, at its centre of gravity."""
+    x, y, _ = car.body.cg
+    chassis = builder.spec.worldbody.add_body(
+        name="chassis",
+        pos=[x, y, car.cg_height],
+        mass=car.body.mass,
+        **{**POINT_MASS, "inertia": list(car.body.inertia)},
+    )
+    chassis.add_freejoint(name="chassis")
+    middle = [-x - car.wheelbase / 2, 0, 0.1]
+    builder.draw(chassis, mujoco.mjtGeom.mjGEOM_BOX, [2.3, 0.85, 0.35], [0.16, 0.36, 0.6, 1], pos=middle)
+    return chassis
+
+
+def _add_wheel(builder: ModelBuilder, car: CompleteCar, chassis: Any, wheel: Wheel) -> None:
     """Carrier on its slide, knuckle on the steering hinge, wheel on its spin."""
-    corner, mass = wheel.corner, wheel.corner.axle.unsprung_mass or 0.0
-    spin = corner.axle.wheel_inertia or 0.0
+    corner, mass, spin = wheel.corner, wheel.axle.unsprung_mass, wheel.axle.wheel_inertia
+    place = [corner.x, corner.y, -car.body.cg[2]]
     left = (1 - _WHEEL_MASS_SHARE) * mass - (_KNUCKLE_MASS if wheel.front else 0.0)
-    carrier = chassis.add_body(name=corner.name("carrier"), pos=[corner.x, corner.y, z], mass=left, **POINT_MASS)
+    carrier = chassis.add_body(name=corner.name("carrier"), pos=place, mass=left, **POINT_MASS)
     builder.joint(carrier, corner.name("travel"), "slide", [0, 0, 1])
     holder = carrier
     if wheel.front:
-        assert vehicle.steering is not None
-        upright = max(vehicle.steering.knuckle_inertia - 0.55 * spin, 0.05 * vehicle.steering.knuckle_inertia)
+        knuckle = car.steering.knuckle_inertia
+        upright = max(knuckle - 0.55 * spin, 0.05 * knuckle)
         inertia = {**POINT_MASS, "inertia": [upright] * 3}
         holder = carrier.add_body(name=corner.name("knuckle"), mass=_KNUCKLE_MASS, **inertia)
         builder.joint(holder, corner.name("steer"), "hinge", [0, 0, 1])
@@ -176,23 +144,17 @@ def _add_wheel(builder: ModelBuilder, vehicle: Vehicle, chassis: Any, wheel: Whe
     )
 
 
-def _add_forces(builder: ModelBuilder, vehicle: Vehicle, wheel: Wheel) -> None:
+def _add_forces(builder: ModelBuilder, steering: Steering, wheel: Wheel) -> None:
     """Suspension elements along the travel, the steering's elasticity, and the tyre with its inner states."""
     corner = wheel.corner
     add_suspension(builder, corner, Form({corner.name("travel"): 1.0}))
-    mass = corner.axle.unsprung_mass or 0.0
+    mass, key = wheel.axle.unsprung_mass, f"{wheel.axle.name}.handling_tyre"
     note_stiffness(builder, corner, mass, tyre=False)
-    key, stiffness, damping = (
-        f"{corner.axle_name}.handling_tyre",
-        wheel.tyre.vertical_stiffness,
-        wheel.tyre.vertical_damping,
-    )
+    stiffness, damping = wheel.tyre.vertical_stiffness, wheel.tyre.vertical_damping
     builder.resolve(f"{key}.vertical_stiffness", stiffness, "N/m", math.sqrt(mass / stiffness), power=2.0)
     if damping > 0:
         builder.resolve(f"{key}.vertical_damping", damping, "N s/m", mass / damping)
     if wheel.front:
-        steering = vehicle.steering
-        assert steering is not None
         spring = Rig(stiffness=steering.stiffness, damping=steering.damping)
         builder.force(corner.name("steering"), spring, Form({corner.name("steer"): 1.0}))
         seconds = math.sqrt(steering.knuckle_inertia / steering.stiffness)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import mujoco
 import numpy as np
 
-from susp_mj.elements.car import CONTROLS, MOST_GEARS, RIG_CONTROLS, car_block, table, table_of_tables
+from susp_mj.elements import Kinematics, Powertrain
+from susp_mj.elements.car import CONTROLS, MOST_GEARS, RIG_CONTROLS, car_block, table, table_of_tables, tables
+from susp_mj.elements.tyres.contact import AnyContactTyre
 from susp_mj.errors import InputError
 
-from ..vehicle import Vehicle
+from ..complete import CompleteAxle, CompleteCar
+from ..vehicle import Body
 from .axles import Corner
 
 RIG_FORCES = {
@@ -30,34 +32,51 @@ _STEER_ROWS = 33
 
 @dataclass(frozen=True)
 class Wheel:
-    """A wheel of the car being built: its corner, its tyre on the road, and where things stand in the design
-    position."""
+    """A wheel of the car being built: its corner, its axle, its tyre as mounted on that side."""
 
     corner: Corner
-    tyre: Any
-    design_height: float
+    axle: CompleteAxle
+    tyre: AnyContactTyre
 
     @property
     def front(self) -> bool:
-        return self.corner.axle_name == "front"
+        return self.axle.name == "front"
 
 
-def head_numbers(vehicle: Vehicle, mass: float, place: tuple[float, float, float]) -> dict[str, float]:
-    """Numbers of the car as a whole; `place` is the centre of gravity's in the design position."""
-    steering, train, air = vehicle.steering, vehicle.powertrain, vehicle.aerodynamics
-    assert steering is not None and train is not None and air is not None and vehicle.wheelbase is not None
+def block(
+    model: mujoco.MjModel, car: CompleteCar, wheels: Sequence[Wheel], controls: Sequence[str], rig: str | None
+) -> np.ndarray:
+    """Everything that the compiled car reads, with the places of joints and actuators in the compiled model.
+
+    Args:
+        controls: names of the actuators that are inputs of the car.
+        rig: as of `build`.
+
+    Raises:
+        InputError: more gears than the block has room for.
+    """
+    head = _head(car) | ({} if rig is None else _rig_servo(car.body))
+    head |= {"freedoms": float(model.nv)}
+    head |= {name: float(model.actuator(name).id) if name in controls else -1.0 for name in (*CONTROLS, *RIG_CONTROLS)}
+    places = [_wheel_numbers(model, car, wheel, rig) for wheel in wheels]
+    return car_block(head, places, [*_engine_tables(car.powertrain), *_wheel_tables(car, wheels)])
+
+
+def _head(car: CompleteCar) -> dict[str, float]:
+    """Numbers of the car as a whole."""
+    steering, train, air = car.steering, car.powertrain, car.aerodynamics
     if len(train.gears) > MOST_GEARS:
         raise InputError(
             f"{len(train.gears)} gears are not allowed; at most {MOST_GEARS}",
             key="powertrain.gears",
-            source=vehicle.source,
+            source=car.vehicle.source,
         )
-    largest = max(train.full_torque)
+    mass, largest = car.body.mass + car.unsprung_mass, max(train.full_torque)
     return {
         "steering_ratio": steering.ratio,
         "steering_limit": steering.limit,
-        "wheelbase": vehicle.wheelbase,
-        "ground_z": -place[2],
+        "wheelbase": car.wheelbase,
+        "ground_z": -car.cg_height,
         "control_gain": _CONTROL_GAIN * mass,
         "control_integral": _CONTROL_INTEGRAL * mass,
         "air_pressure": air.density * air.area / 2,
@@ -66,7 +85,7 @@ def head_numbers(vehicle: Vehicle, mass: float, place: tuple[float, float, float
         "lift_rear": air.lift_rear,
         "side_force": air.side,
         "yaw_moment": air.yaw,
-        "air_x": -vehicle.wheelbase / 2 - place[0],
+        "air_x": -car.wheelbase / 2 - car.body.cg[0],
         "engine_inertia": train.inertia,
         "idle_speed": train.idle_speed,
         "idle_gain": _IDLE_GAIN,
@@ -82,83 +101,51 @@ def head_numbers(vehicle: Vehicle, mass: float, place: tuple[float, float, float
         "engine_limit": train.speed[-1],
         "gears": float(len(train.gears)),
         **{f"gear_{i}": ratio for i, ratio in enumerate(train.gears, 1)},
-        "design_x": place[0],
-        "design_y": place[1],
-        "design_z": place[2],
+        "design_x": car.body.cg[0],
+        "design_y": car.body.cg[1],
+        "design_z": car.cg_height,
     }
 
 
-def rig_servo(mass: float, inertia: Sequence[float], rig: str | None) -> dict[str, float]:
+def _rig_servo(body: Body) -> dict[str, float]:
     """Servo that holds the body on the rig."""
-    if rig is None:
-        return {}
-    servo = {"rig": 1.0, "rig_stiffness": mass * _RIG_FREQUENCY**2, "rig_damping": 1.4 * mass * _RIG_FREQUENCY}
-    for axis, moment in zip("xyz", inertia, strict=True):
+    servo = {
+        "rig": 1.0,
+        "rig_stiffness": body.mass * _RIG_FREQUENCY**2,
+        "rig_damping": 1.4 * body.mass * _RIG_FREQUENCY,
+    }
+    for axis, moment in zip("xyz", body.inertia, strict=True):
         servo |= {f"rig_rate_{axis}": moment * _RIG_FREQUENCY**2, f"rig_damping_{axis}": 1.4 * moment * _RIG_FREQUENCY}
     return servo
 
 
-def block(
-    model: mujoco.MjModel,
-    vehicle: Vehicle,
-    wheels: Sequence[Wheel],
-    head: Mapping[str, float],
-    controls: Sequence[str],
-    rig: str | None,
-) -> np.ndarray:
-    """Everything that the compiled car reads, with the places of joints and actuators in the compiled model."""
-    train = vehicle.powertrain
-    assert train is not None
-    values = {**head, "freedoms": float(model.nv)}
-    values |= {
-        name: float(model.actuator(name).id) if name in controls else -1.0 for name in (*CONTROLS, *RIG_CONTROLS)
-    }
-    places: list[dict[str, float]] = []
-    tables = [
-        ("full_torque", -1, table(train.speed, train.full_torque, smooth=False, count=65)),
-        ("drag_torque", -1, table(train.speed, train.drag_torque, smooth=False, count=65)),
-    ]
-    for i, wheel in enumerate(wheels):
-        places.append(_wheel_numbers(model, vehicle, wheel, rig))
-        tables += [(name, i, numbers) for name, numbers in _wheel_tables(wheel).items()]
-    return car_block(values, places, tables)
-
-
-def _wheel_numbers(model: mujoco.MjModel, vehicle: Vehicle, wheel: Wheel, rig: str | None) -> dict[str, float]:
-    corner, tyre, steering, train, brakes = (
-        wheel.corner,
-        wheel.tyre,
-        vehicle.steering,
-        vehicle.powertrain,
-        vehicle.brakes,
-    )
-    assert steering is not None and train is not None and brakes is not None and vehicle.wheelbase is not None
-    case_z = -float(model.body(corner.name("carrier")).pos[2])
+def _wheel_numbers(model: mujoco.MjModel, car: CompleteCar, wheel: Wheel, rig: str | None) -> dict[str, float]:
+    corner, tyre, steering, brakes = wheel.corner, wheel.tyre, car.steering, car.brakes
     travel, spin = model.joint(corner.name("travel")), model.joint(corner.name("spin"))
     share = brakes.front_share if wheel.front else 1 - brakes.front_share
     numbers = {
         "side": float(corner.side),
         "x": corner.x,
         "y": corner.y,
-        "z": -case_z,
+        "z": -car.body.cg[2],
         "travel_freedom": float(travel.dofadr[0]),
         "steer_freedom": -1.0,
         "spin_freedom": float(spin.dofadr[0]),
         "tyre": float(model.actuator(corner.name("tyre")).id),
-        "drive_share": float((train.driven == "front") == wheel.front),
+        "drive_share": float((car.powertrain.driven == "front") == wheel.front),
         "brake_torque": brakes.torque * share / 2,
         "tyre_law": float(tyre.law.number),
         "radius": tyre.radius,
         "stiffness": tyre.vertical_stiffness,
         "damping": tyre.vertical_damping,
-        "design_height": wheel.design_height,
+        "design_height": wheel.axle.hub_height,
     }
     if wheel.front:
         joint = model.joint(corner.name("steer"))
         numbers |= {
             "steer_freedom": float(joint.dofadr[0]),
             "steering": float(model.actuator(corner.name("steering")).id),
-            "ackermann": steering.ackermann * (corner.axle.track or 0.0) / (2 * vehicle.wheelbase),
+            "ackermann": steering.ackermann * wheel.axle.track / (2 * car.wheelbase),
             "trail": steering.trail,
             "scrub": steering.scrub,
         }
@@ -167,40 +154,54 @@ def _wheel_numbers(model: mujoco.MjModel, vehicle: Vehicle, wheel: Wheel, rig: s
     return numbers
 
 
-def _wheel_tables(wheel: Wheel) -> dict[str, np.ndarray]:
-    """Kinematics over travel and steering, compliance over force, the tyre's parameters."""
-    kinematics, compliance = wheel.corner.axle.kinematics, wheel.corner.axle.compliance
-    assert kinematics is not None and compliance is not None
-    tables = {
-        "path": table(kinematics.travel, kinematics.path("lateral"), kinematics.path("longitudinal"), smooth=True),
-        "angles": _angle_tables(
-            kinematics.travel, kinematics.steer, kinematics.angles("toe"), kinematics.angles("camber")
-        ),
-        "tyre_parameters": np.array(wheel.tyre.parameters()),
-    }
-    if kinematics.longitudinal_centre:
-        turn = (kinematics.path("longitudinal_centre") - kinematics.path("longitudinal")) / wheel.design_height
-        tables["swing"] = table(kinematics.travel, turn, smooth=True)
-    if compliance.lateral_force:
-        nothing = [0.0] * len(compliance.lateral_force)
-        curves = [compliance.toe or nothing, compliance.camber or nothing]
-        tables["elastic_lateral"] = table(compliance.lateral_force, *curves, smooth=False)
-    if compliance.longitudinal_force:
-        tables["elastic_longitudinal"] = table(compliance.longitudinal_force, compliance.toe_longitudinal, smooth=False)
-    if compliance.aligning_moment:
-        tables["elastic_aligning"] = table(compliance.aligning_moment, compliance.toe_aligning, smooth=False)
-    return tables
+def _engine_tables(train: Powertrain) -> list[tuple[str, int, np.ndarray]]:
+    """Torques over the engine's speed."""
+    curves = {"full_torque": train.full_torque, "drag_torque": train.drag_torque}
+    return [(name, -1, table(train.speed, torque, smooth=False, count=65)) for name, torque in curves.items()]
 
 
-def _angle_tables(travel: Sequence[float], steer: Sequence[float], toe: np.ndarray, camber: np.ndarray) -> np.ndarray:
+def _wheel_tables(car: CompleteCar, wheels: Sequence[Wheel]) -> list[tuple[str, int, np.ndarray]]:
+    """Tables of every wheel; the two of an axle share all but their tyres' parameters."""
+    of_axle = {axle.name: (_motion_tables(axle.kinematics), _optional_tables(axle)) for axle in car.axles}
+    placed = []
+    for i, wheel in enumerate(wheels):
+        motion, optional = of_axle[wheel.axle.name]
+        own = motion | {"tyre_parameters": np.array(wheel.tyre.parameters())} | optional
+        placed += [(name, i, numbers) for name, numbers in own.items()]
+    return placed
+
+
+def _motion_tables(kinematics: Kinematics) -> dict[str, np.ndarray]:
+    """Path of the contact patch, toe and camber over travel and steering."""
+    path = table(kinematics.travel, kinematics.path("lateral"), kinematics.path("longitudinal"), smooth=True)
+    return {"path": path, "angles": _angle_tables(kinematics)}
+
+
+def _angle_tables(kinematics: Kinematics) -> np.ndarray:
     """Toe and camber over travel for evenly spaced steer angles; between the given ones they follow cubic splines."""
-    if len(steer) == 0:
-        return table_of_tables(0.0, 1.0, [table(travel, toe[:, 0], camber[:, 0], smooth=True)])
+    steer, angles = kinematics.steer, np.stack([kinematics.angles("toe"), kinematics.angles("camber")])
+    if not steer:
+        return table_of_tables(0.0, 1.0, tables(kinematics.travel, angles.transpose(2, 0, 1), smooth=True))
     from scipy.interpolate import CubicSpline
 
     even, spacing = np.linspace(steer[0], steer[-1], _STEER_ROWS, retstep=True)
     ends = "not-a-knot" if len(steer) > 2 else "natural"
-    toes, cambers = (CubicSpline(steer, angles, axis=1, bc_type=ends)(even) for angles in (toe, camber))
-    return table_of_tables(
-        even[0], spacing, [table(travel, toes[:, j], cambers[:, j], smooth=True) for j in range(_STEER_ROWS)]
-    )
+    rows = CubicSpline(steer, angles, axis=2, bc_type=ends)(even).transpose(2, 0, 1)
+    return table_of_tables(even[0], spacing, tables(kinematics.travel, rows, smooth=True))
+
+
+def _optional_tables(axle: CompleteAxle) -> dict[str, np.ndarray]:
+    """Turning of the carrier over travel, elastic angles over forces; those that the car has."""
+    kinematics, compliance, found = axle.kinematics, axle.compliance, {}
+    if kinematics.longitudinal_centre:
+        turn = (kinematics.path("longitudinal_centre") - kinematics.path("longitudinal")) / axle.hub_height
+        found["swing"] = table(kinematics.travel, turn, smooth=True)
+    if compliance.lateral_force:
+        nothing = [0.0] * len(compliance.lateral_force)
+        curves = [compliance.toe or nothing, compliance.camber or nothing]
+        found["elastic_lateral"] = table(compliance.lateral_force, *curves, smooth=False)
+    if compliance.longitudinal_force:
+        found["elastic_longitudinal"] = table(compliance.longitudinal_force, compliance.toe_longitudinal, smooth=False)
+    if compliance.aligning_moment:
+        found["elastic_aligning"] = table(compliance.aligning_moment, compliance.toe_aligning, smooth=False)
+    return found

@@ -6,14 +6,15 @@ mass or have mass and stand on tyre springs, guided independently or by a rigid 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import mujoco
 
 from susp_mj.errors import InputError
 from susp_mj.meaning import Meaning
+from susp_mj.names import AXLES
 
+from ..complete import LoadedCar
 from ..vehicle import DESIGN_LOAD, Vehicle
 from .axles import BODY_HEIGHT, Corner, add_axle, note_stiffness
 from .body_forces import add_lateral, add_longitudinal, add_rig, add_seat
@@ -32,28 +33,22 @@ def oscillation_specification(
 ) -> tuple[mujoco.MjSpec, Meaning]:
     """The MuJoCo specification of an oscillation model and the meaning of its numbers; arguments as for `build`."""
     topology = OSCILLATION[model]
-    builder = ModelBuilder(f"{vehicle.name}_{model}", vehicle.source)
-    only = axle or ("rear" if vehicle.rear is not None else "front")
-    axles = ["front", "rear"] if topology.axles == 2 else [only]
     if topology.axles == 2 and axle is not None:
         raise InputError(f"'{axle}' is not allowed; model {model} has both axles", key="axle")
-    for name in axles:
-        vehicle.axle(name)
-    mass = Mass.of(vehicle, topology, load, axles, model)
+    only = axle or ("rear" if vehicle.rear is not None else "front")
+    car = LoadedCar.of(vehicle, load, AXLES if topology.axles == 2 else (only,))
+    mass = Mass.of(car, topology, model)
+    builder = ModelBuilder(f"{vehicle.name}_{model}", vehicle.source)
     body, position = _body(builder, topology, mass)
-    corners = _corners(builder, vehicle, topology, axles, mass)
+    corners = _corners(builder, car, topology, mass)
     for group in (corners[i : i + topology.sides] for i in range(0, len(corners), topology.sides)):
         add_axle(builder, topology, body, position, group)
     for corner in corners:
-        felt = (
-            (corner.axle.unsprung_mass or 0.0)
-            if topology.sprung_wheels
-            else vehicle.corner_mass(corner.axle_name, load)
-        )
+        felt = corner.axle.unsprung_mass if topology.sprung_wheels else corner.axle.corner_mass
         note_stiffness(builder, corner, felt, tyre=topology.sprung_wheels)
-    roll_lever = add_lateral(builder, vehicle, topology, load, corners, position)
-    add_longitudinal(builder, vehicle, topology, load, mass, position)
-    add_seat(builder, vehicle, mass, position)
+    roll_lever = add_lateral(builder, topology, car.cg_height, corners, position)
+    add_longitudinal(builder, topology, car.cg_height, mass, position)
+    add_seat(builder, vehicle.driver, mass, position)
     if rig is not None:
         add_rig(builder, rig, position, mass)
     return builder.finish(
@@ -63,13 +58,11 @@ def oscillation_specification(
         load=load,
         facts={
             "sprung_mass": mass.mass,
-            "unsprung_mass": sum(corner.axle.unsprung_mass or 0.0 for corner in corners)
-            if topology.sprung_wheels
-            else 0.0,
+            "unsprung_mass": sum(corner.axle.unsprung_mass for corner in corners) if topology.sprung_wheels else 0.0,
             "cg_x": mass.x,
             "cg_y": mass.y,
             **({"roll_lever": roll_lever} if roll_lever is not None else {}),
-            **{f"track_{name}": vehicle.axle(name).track or 0.0 for name in axles if topology.sides == 2},
+            **{f"track_{each.name}": each.track for each in car.axles if topology.sides == 2},
         },
     )
 
@@ -106,29 +99,19 @@ def _body(builder: ModelBuilder, topology: Topology, mass: Mass) -> tuple[Any, d
     return body, position
 
 
-def _corners(
-    builder: ModelBuilder, vehicle: Vehicle, topology: Topology, axles: Sequence[str], mass: Mass
-) -> list[Corner]:
+def _corners(builder: ModelBuilder, car: LoadedCar, topology: Topology, mass: Mass) -> list[Corner]:
     """The model's wheels, axle by axle, left before right."""
     corners = []
-    for axle_name in axles:
-        axle = vehicle.axle(axle_name)
-        x = 0.0 if axle_name == "front" or topology.axles == 1 else -(vehicle.wheelbase or 0.0)
+    for axle in car.axles:
+        x = 0.0 if axle is car.axles[0] else -car.wheelbase
         if topology.sides == 1:
-            sides: dict[str, int] = {axle_name if topology.axles == 2 else "": 0}
+            sides: dict[str, int] = {axle.name if topology.axles == 2 else "": 0}
         else:
-            sides = {f"{axle_name[0]}l": 1, f"{axle_name[0]}r": -1}
-        half_track = _required(vehicle, axle_name, "track") / 2 if topology.sides == 2 else 0.0
+            sides = {f"{axle.name[0]}l": 1, f"{axle.name[0]}r": -1}
+        half_track = axle.required("track", "models with two sides") / 2 if topology.sides == 2 else 0.0
         for station, side in sides.items():
             y = side * half_track
             road = builder.wheel_station(station, x, y)
             partner = next((other for other in sides if other != station), None)
-            corners.append(Corner(station, axle_name, x - mass.x, y - mass.y, side, axle, road, partner))
+            corners.append(Corner(station, x - mass.x, y - mass.y, side, axle, road, partner))
     return corners
-
-
-def _required(vehicle: Vehicle, axle_name: str, key: str) -> float:
-    value = getattr(vehicle.axle(axle_name), key)
-    if value is None:
-        raise InputError("is required by models with two sides", key=f"{axle_name}.{key}", source=vehicle.source)
-    return value

@@ -22,7 +22,7 @@ from susp_mj.names import channel_name
 from susp_mj.plant import compiled
 from susp_mj.simulation import STEP
 
-from ..vehicle import Axle
+from ..complete import LoadedAxle
 
 POINT_MASS: dict[str, Any] = {
     "ipos": [0, 0, 0],
@@ -210,11 +210,11 @@ class ModelBuilder:
             if (output.quantity, output.station) == (quantity, station):
                 self.outputs[i] = Output(quantity, station, (*output.terms, *terms))
 
-    def travel(self, station: str, axle: Axle, axle_name: str) -> None:
+    def travel(self, station: str, axle: LoadedAxle) -> None:
         """Declare the travel of a station's suspension and the time constant of its damper."""
-        stops = axle.spring.stops
-        self.travels.append(Travel(station, stops.rebound, stops.compression, axle_name))
-        self._note_time_constant(axle.damper, axle_name)
+        stops = axle.values.spring.stops
+        self.travels.append(Travel(station, stops.rebound, stops.compression, axle.name))
+        self._note_time_constant(axle.values.damper, axle.name)
 
     def resolve(self, key: str, value: float, unit: str, seconds: float, power: float = 1.0) -> None:
         """Remember a time constant that the step must resolve: a rate acting on a mass, or a stiffness (power 2)."""

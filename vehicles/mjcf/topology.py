@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from susp_mj.errors import InputError
 
-from ..vehicle import Vehicle
+from ..complete import LoadedCar
 
 
 @dataclass(frozen=True)
@@ -76,22 +75,24 @@ class Mass:
     pitch_inertia: float
 
     @classmethod
-    def of(cls, vehicle: Vehicle, topology: Topology, load: str, axles: Sequence[str], model: str) -> Mass:
-        """Share of the sprung body: a wheel's, an axle's, one side's, or all of it."""
-        case = vehicle.load(load)
+    def of(cls, car: LoadedCar, topology: Topology, model: str) -> Mass:
+        """Share of the sprung body: a wheel's, an axle's, one side's, or all of it.
+
+        Raises:
+            InputError: the car is known by the masses on its wheels, and the model has more than one.
+        """
         if topology.axles == 1 and topology.sides == 1:
-            return cls(vehicle.corner_mass(axles[0], load), 0.0, 0.0, 1.0, 1.0)
-        if case.sprung_mass is None or case.inertia is None or case.cg is None:
+            return cls(car.axles[0].corner_mass, 0.0, 0.0, 1.0, 1.0)
+        body = car.body
+        if body is None:
             raise InputError(
                 f"model {model} needs sprung_mass, cg and inertia, not a corner's mass only",
-                key=f"loads.{load}",
-                source=vehicle.source,
+                key=f"loads.{car.load}",
+                source=car.vehicle.source,
             )
         if topology.axles == 1:
-            mass = 2 * vehicle.corner_mass(axles[0], load)
-            return cls(mass, 0.0, case.cg[1], case.inertia[0] * mass / case.sprung_mass, 1.0)
-        if vehicle.wheelbase is None:
-            raise InputError(f"is required by model {model}", key="wheelbase", source=vehicle.source)
+            mass = 2 * car.axles[0].corner_mass
+            return cls(mass, 0.0, body.cg[1], body.inertia[0] * mass / body.mass, 1.0)
         share = topology.sides / 2
-        y = case.cg[1] if topology.sides == 2 else 0.0
-        return cls(case.sprung_mass * share, case.cg[0], y, case.inertia[0], case.inertia[1] * share)
+        y = body.cg[1] if topology.sides == 2 else 0.0
+        return cls(body.mass * share, body.cg[0], y, body.inertia[0], body.inertia[1] * share)
