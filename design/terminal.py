@@ -183,7 +183,7 @@ def print_lists() -> None:
     _print_matrix()
     _print_pairs("Cases", {name: _case_title(name) for name in available_cases()})
     _print_pairs("Elements", {"springs": ", ".join(SPRINGS), "dampers": ", ".join(DAMPERS), "tyres": ", ".join(TYRES)})
-    _print_pairs("Evaluation numbers", {name: _first_line(number) for name, number in NUMBERS.items()})
+    _print_pairs("Evaluation numbers", {name: each.description.replace("`", "") for name, each in NUMBERS.items()})
 
 
 def _print_matrix() -> None:

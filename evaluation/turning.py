@@ -10,21 +10,21 @@ from susp_mj.run import Run
 
 from .compare import Comparison
 from .display import quantity_text
-from .numbers import attitude, cornering, ride, wheel_lift
-from .numbers.number import Evaluate
-from .numbers.turns import drives, kind
+from .numbers import NUMBERS
+from .numbers.runs import drives, kind
+from .numbers.wheel_lift import lifts
 
-ROWS: tuple[tuple[str, Evaluate], ...] = (
-    ("largest lateral acceleration", cornering.lateral_acceleration_max),
-    ("roll at 4 m/s²", cornering.roll_angle_at_4),
-    ("roll at 7 m/s²", cornering.roll_angle_at_7),
-    ("largest roll", attitude.roll_angle_max),
-    ("least load of the inner front wheel", wheel_lift.inner_wheel_load_front),
-    ("least load of the inner rear wheel", wheel_lift.inner_wheel_load_rear),
-    ("rebound travel left, front", ride.travel_left_rebound_front),
-    ("rebound travel left, rear", ride.travel_left_rebound_rear),
-)
-"""Word and number of the rows above the one that says what lifts."""
+ROWS = {
+    "lateral_acceleration_max": "largest lateral acceleration",
+    "roll_angle_at_4": "roll at 4 m/s²",
+    "roll_angle_at_7": "roll at 7 m/s²",
+    "roll_angle_max": "largest roll",
+    "inner_wheel_load_front": "least load of the inner front wheel",
+    "inner_wheel_load_rear": "least load of the inner rear wheel",
+    "travel_left_rebound_front": "rebound travel left, front",
+    "travel_left_rebound_rear": "rebound travel left, rear",
+}
+"""Number -> words of the rows above the one that says what lifts."""
 LIFTING = "wheels that lift"
 _TURNS = 4.0
 
@@ -54,17 +54,17 @@ def turning_table(comparison: Comparison) -> TurningTable | None:
     if max(float(np.abs(run["lateral_acceleration"]).max()) for run in runs) < _TURNS:
         return None
     rows = []
-    for word, number in ROWS:
-        found = [number(run) for run in runs]
+    for name, words in ROWS.items():
+        found = [NUMBERS[name](run) for run in runs]
         if any(each.applies for each in found):
-            rows.append((word, *(quantity_text(each.value, each.unit) for each in found)))
+            rows.append((words, *(quantity_text(each.value, each.unit) for each in found)))
     rows.append((LIFTING, *(lifting(run) for run in runs)))
     return TurningTable(tuple(each.name for each in comparison.configurations), tuple(rows))
 
 
 def lifting(run: Run) -> str:
     """Which wheels lift, when, at which lateral acceleration and for how long, in words."""
-    found = wheel_lift.lifts(run)
+    found = lifts(run)
     if not found:
         return "none"
     return "; ".join(

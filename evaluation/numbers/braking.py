@@ -12,8 +12,9 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .number import Number
-from .turns import axle_load, distance, drives, fact, first, kind, missing, parameter
+from .number import Answer, Measure, Runs, no_question
+from .runs import drives, facts, kind, parameter, recorded
+from .turns import axle_load, distance, first
 
 BRAKED = {"braking": "start", "split_mu": "start", "braking_in_turn": "brake_start"}
 """Manoeuvre that brakes -> its parameter that says when."""
@@ -24,127 +25,98 @@ LOCKED = 0.1
 HUNDRED = 100 / 3.6
 
 
-def braking_deceleration(run: Run) -> Number:
+def braking_deceleration(run: Run) -> Answer:
     """Mean fully developed deceleration [m/s²]: ``(v_b² - v_e²)/(2 s)`` over the way s from 80 to 10 % of the initial
     speed."""
-    begin = _braking_begins(run)
-    if begin is None:
-        return missing("m/s²", "does not brake")
+    begin = braking_begins(run)
     found = _from_80_to_10(run, begin)
     if found is None:
-        return Number(None, "m/s²", "does not slow down to 10 % of the speed")
+        return Answer(None, "does not slow down to 10 % of the speed")
     speed, way = run["speed"], distance(run)
     b, e = found
-    return Number(
-        float((speed[b] ** 2 - speed[e] ** 2) / (2 * (way[e] - way[b]))), "m/s²", f"from {3.6 * speed[begin]:.0f} km/h"
+    return Answer(
+        float((speed[b] ** 2 - speed[e] ** 2) / (2 * (way[e] - way[b]))), f"from {3.6 * speed[begin]:.0f} km/h"
     )
 
 
-def stopping_distance(run: Run) -> Number:
+def stopping_distance(run: Run) -> Answer:
     """Way from the first movement of the brake pedal until the car stands [metre]."""
-    begin = _braking_begins(run)
-    if begin is None:
-        return missing("metre", "does not brake")
+    begin = braking_begins(run)
     stands = first(run["speed"][begin:] < STANDS)
     if stands is None:
-        return Number(None, "metre", f"still {3.6 * float(run['speed'][-1]):.0f} km/h at the end")
+        return Answer(None, f"still {3.6 * float(run['speed'][-1]):.0f} km/h at the end")
     way = distance(run)
-    return Number(float(way[begin + stands] - way[begin]), "metre", f"from {3.6 * run['speed'][begin]:.0f} km/h")
+    return Answer(float(way[begin + stands] - way[begin]), f"from {3.6 * run['speed'][begin]:.0f} km/h")
 
 
-def braking_load_share_front(run: Run) -> Number:
+def braking_load_share_front(run: Run) -> Answer:
     """Front axle's mean share of the wheel loads while braking, from 80 to 10 % of the speed."""
-    begin = _braking_begins(run)
-    if begin is None or "fl_wheel_load" not in run:
-        return missing("1", "does not brake")
+    begin = braking_begins(run)
     found = _from_80_to_10(run, begin)
     if found is None:
-        return Number(None, "1", "does not slow down to 10 % of the speed")
+        return Answer(None, "does not slow down to 10 % of the speed")
     front, rear = (axle_load(run, axle) for axle in ("front", "rear"))
     share = front / (front + rear)
-    return Number(float(share[found[0] : found[1]].mean()), "1", f"{100 * share[begin]:.1f} % before")
+    return Answer(float(share[found[0] : found[1]].mean()), f"{100 * share[begin]:.1f} % before")
 
 
-def wheel_lock_time(run: Run) -> Number:
+def wheel_lock_time(run: Run) -> Answer:
     """Time for which a wheel is locked while the car moves faster than 2 m/s, the one that is locked longest [s]."""
-    begin = _braking_begins(run)
-    if begin is None or "fl_wheel_speed" not in run:
-        return missing("s", "does not brake")
     speed = run["speed"]
     times = {}
     for station, spin in run.stations("wheel_speed").items():
-        radius = fact(run, "wheel_radius_front" if station.startswith("f") else "wheel_radius_rear") or 0.3
+        radius = facts(run).get("wheel_radius_front" if station.startswith("f") else "wheel_radius_rear", 0.3)
         times[station] = float(np.sum((spin * radius < LOCKED * speed) & (speed > 2.0))) * run.step
     station = max(times, key=lambda each: times[each])
-    return Number(times[station], "s", station) if times[station] > 0 else Number(0.0, "s", "no wheel locks")
+    return Answer(times[station], station) if times[station] > 0 else Answer(0.0, "no wheel locks")
 
 
-def braking_yaw_deviation(run: Run) -> Number:
+def braking_yaw_deviation(run: Run) -> Answer:
     """Largest change of the heading while braking on a straight road, to either side [rad], without sign."""
-    begin = _braking_begins(run)
-    if begin is None or kind(run) == "braking_in_turn":
-        return missing("rad", "does not brake on a straight road")
+    begin = braking_begins(run)
     yaw = run["yaw_angle"][begin:] - run["yaw_angle"][begin]
     at = int(np.argmax(np.abs(yaw)))
-    return Number(abs(float(yaw[at])), "rad", _side(float(yaw[at]), "turns") if abs(yaw[at]) > 1e-3 else "")
+    return Answer(abs(float(yaw[at])), _side(float(yaw[at]), "turns") if abs(yaw[at]) > 1e-3 else "")
 
 
-def braking_lateral_deviation(run: Run) -> Number:
+def braking_lateral_deviation(run: Run) -> Answer:
     """Largest sideways departure from the straight line while braking on a straight road [metre], without sign."""
-    begin = _braking_begins(run)
-    if begin is None or kind(run) == "braking_in_turn":
-        return missing("metre", "does not brake on a straight road")
+    begin = braking_begins(run)
     sideways = sideways_from(run, begin)
     at = int(np.argmax(np.abs(sideways)))
-    return Number(
-        abs(float(sideways[at])), "metre", _side(float(sideways[at]), "drifts") if abs(sideways[at]) > 0.01 else ""
-    )
+    return Answer(abs(float(sideways[at])), _side(float(sideways[at]), "drifts") if abs(sideways[at]) > 0.01 else "")
 
 
-def braking_yaw_ratio(run: Run) -> Number:
+def braking_yaw_ratio(run: Run) -> Answer:
     """Yaw rate 1 s after braking began in a turn, over that of the same circle at the lower speed.
 
     ``psi'(1 s)/(psi'_0 v(1 s)/v_0)``: above 1 the car turns in, below 1 it runs wide.
     """
-    begin = _braking_begins(run)
-    if begin is None or kind(run) != "braking_in_turn":
-        return missing("1", "does not brake in a turn")
+    begin = braking_begins(run)
     later = begin + round(1.0 / run.step)
     if later >= len(run.time) or run["speed"][later] < 1.0 or abs(run["yaw_rate"][begin]) < 1e-3:
-        return Number(None, "1", "the run or the turn ends before")
+        return Answer(None, "the run or the turn ends before")
     same_circle = run["yaw_rate"][begin] * run["speed"][later] / run["speed"][begin]
-    return Number(
+    return Answer(
         float(run["yaw_rate"][later] / same_circle),
-        "1",
         f"at {abs(float(run['lateral_acceleration'][begin])):.1f} m/s² before",
     )
 
 
-def acceleration_time_100(run: Run) -> Number:
+def acceleration_time_100(run: Run) -> Answer:
     """Time from the first movement of the accelerator to 100 km/h [s]."""
-    found = _to_hundred(run)
-    if isinstance(found, str):
-        return missing("s", found)
-    begin, end = found
-    return Number(None, "s", _not_reached(run)) if end is None else Number(float(run.time[end] - run.time[begin]), "s")
+    return _to_hundred(run, run.time)
 
 
-def acceleration_distance_100(run: Run) -> Number:
+def acceleration_distance_100(run: Run) -> Answer:
     """Way from the first movement of the accelerator to 100 km/h [metre]."""
-    found = _to_hundred(run)
-    if isinstance(found, str):
-        return missing("metre", found)
-    begin, end = found
-    way = distance(run)
-    return Number(None, "metre", _not_reached(run)) if end is None else Number(float(way[end] - way[begin]), "metre")
+    return _to_hundred(run, distance(run))
 
 
-def longitudinal_acceleration_max(run: Run) -> Number:
+def longitudinal_acceleration_max(run: Run) -> Answer:
     """Largest forward acceleration [m/s²]."""
-    if not drives(run) or kind(run) != "acceleration":
-        return missing("m/s²", "does not accelerate")
     at = int(np.argmax(run["longitudinal_acceleration"]))
-    return Number(float(run["longitudinal_acceleration"][at]), "m/s²", f"at {3.6 * run['speed'][at]:.0f} km/h")
+    return Answer(float(run["longitudinal_acceleration"][at]), f"at {3.6 * run['speed'][at]:.0f} km/h")
 
 
 def sideways_from(run: Run, begin: int) -> np.ndarray:
@@ -154,10 +126,14 @@ def sideways_from(run: Run, begin: int) -> np.ndarray:
     return y * np.cos(heading) - x * np.sin(heading)
 
 
-def _braking_begins(run: Run) -> int | None:
-    """Index of the record at which the driver puts the brake on; None in a manoeuvre without braking."""
-    begin = parameter(run, BRAKED.get(kind(run), ""))
-    return first(run.time >= float(begin) - 1e-9) if drives(run) and begin is not None else None
+def braking_begins(run: Run) -> int:
+    """Index of the record at which the driver puts the brake on."""
+    return int(np.argmax(run.time >= _brake_time(run) - 1e-9))
+
+
+def _brake_time(run: Run) -> float:
+    """When the driver puts the brake on [s]; never in a manoeuvre without braking."""
+    return float(parameter(run, BRAKED.get(kind(run), ""), np.inf)) if drives(run) else np.inf
 
 
 def _from_80_to_10(run: Run, begin: int) -> tuple[int, int] | None:
@@ -167,21 +143,34 @@ def _from_80_to_10(run: Run, begin: int) -> tuple[int, int] | None:
     return None if high is None or low is None or low == high else (begin + high, begin + low)
 
 
-def _to_hundred(run: Run) -> tuple[int, int | None] | str:
-    """Records at which the accelerator moves and at which 100 km/h are reached, or why this cannot be asked."""
-    if not drives(run) or kind(run) != "acceleration" or "accelerator" not in run:
-        return "does not accelerate"
-    moved = first(run.time >= float(parameter(run, "start", 0.0)))
-    begin = 0 if moved is None else moved
-    if run["speed"][begin] >= HUNDRED:
-        return "is faster than 100 km/h from the beginning"
-    reached = first(run["speed"][begin:] >= HUNDRED)
-    return begin, None if reached is None else begin + reached
-
-
-def _not_reached(run: Run) -> str:
-    return f"reaches {3.6 * float(run['speed'].max()):.0f} km/h"
+def _to_hundred(run: Run, passed: np.ndarray) -> Answer:
+    """How much of something, time or way, has passed between the accelerator's first movement and 100 km/h."""
+    begin, speed = first(run.time >= float(parameter(run, "start", 0.0))) or 0, run["speed"]
+    if speed[begin] >= HUNDRED:
+        return no_question("is faster than 100 km/h from the beginning")
+    reached = first(speed[begin:] >= HUNDRED)
+    if reached is None:
+        return Answer(None, f"reaches {3.6 * float(speed.max()):.0f} km/h")
+    return Answer(float(passed[begin + reached] - passed[begin]))
 
 
 def _side(value: float, verb: str) -> str:
     return f"{verb} to the {'left' if value > 0 else 'right'}"
+
+
+BRAKES = Runs(lambda run: _brake_time(run) <= run.time[-1], "does not brake")
+STRAIGHT = Runs(lambda run: kind(run) != "braking_in_turn", "does not brake on a straight road")
+IN_TURN = Runs(lambda run: kind(run) == "braking_in_turn", "does not brake in a turn")
+ACCELERATES = Runs(lambda run: drives(run) and kind(run) == "acceleration", "does not accelerate")
+NUMBERS = (
+    Measure(braking_deceleration, "m/s²", BRAKES),
+    Measure(stopping_distance, "metre", BRAKES),
+    Measure(braking_load_share_front, "1", BRAKES),
+    Measure(wheel_lock_time, "s", BRAKES & recorded("wheel_speed")),
+    Measure(braking_yaw_deviation, "rad", BRAKES & STRAIGHT),
+    Measure(braking_lateral_deviation, "metre", BRAKES & STRAIGHT),
+    Measure(braking_yaw_ratio, "1", BRAKES & IN_TURN),
+    Measure(acceleration_time_100, "s", ACCELERATES & recorded("accelerator")),
+    Measure(acceleration_distance_100, "metre", ACCELERATES & recorded("accelerator")),
+    Measure(longitudinal_acceleration_max, "m/s²", ACCELERATES),
+)

@@ -27,7 +27,8 @@ import numpy as np
 from susp_mj.errors import InputError
 from susp_mj.run import Run
 
-from .number import Number
+from .number import Answer, Measure, Runs
+from .runs import recorded
 
 LEAST_SAMPLING = 500.0
 """Records per second [Hz] that a weighting needs: 2.5 times the band limit of 100 Hz lie below the Nyquist
@@ -132,7 +133,7 @@ def comfort_word(acceleration: float) -> str:
     return " to ".join(word for low, high, word in _COMFORT if low <= acceleration < high)
 
 
-def weighted_acceleration(run: Run) -> Number:
+def weighted_acceleration(run: Run) -> Answer:
     """Wk-weighted rms of the vertical acceleration at the body's centre of gravity [m/s²].
 
     ``a_w = sqrt(1/T ∫ a_w(t)² dt)`` over the whole run, k = 1; the note is the ISO's word for it. Compare runs of the
@@ -141,7 +142,7 @@ def weighted_acceleration(run: Run) -> Number:
     return _weighted_rms(run, "body_acceleration")
 
 
-def weighted_seat_acceleration(run: Run) -> Number:
+def weighted_seat_acceleration(run: Run) -> Answer:
     """Wk-weighted rms of the vertical acceleration at the driver's seat [m/s²].
 
     As `weighted_acceleration`, where heave, pitch and roll come together at the driver's place; the floor, not the
@@ -150,31 +151,28 @@ def weighted_seat_acceleration(run: Run) -> Number:
     return _weighted_rms(run, "seat_acceleration")
 
 
-def vibration_dose_value(run: Run) -> Number:
+def vibration_dose_value(run: Run) -> Answer:
     """Fourth-power vibration dose of the Wk-weighted vertical acceleration at the centre of gravity [m/s^1.75].
 
     ``VDV = (∫ a_w(t)⁴ dt)^(1/4)``, k = 1: it grows with time and heeds shocks more than the rms (ISO 2631-1:1997,
     6.3.2).
     """
-    unit = "m/s^1.75"
-    found = _weighted_channel(run, "body_acceleration", unit)
-    if isinstance(found, Number):
-        return found
-    return Number(_integral(found**4, run) ** 0.25, unit)
+    found = _weighted_channel(run, "body_acceleration")
+    return found if isinstance(found, Answer) else Answer(_integral(found**4, run) ** 0.25)
 
 
-def maximum_transient_vibration(run: Run) -> Number:
+def maximum_transient_vibration(run: Run) -> Answer:
     """Largest running rms over 1 s (MTVV) of the Wk-weighted vertical acceleration at the centre of gravity [m/s²].
 
     ``max over t of sqrt(1/τ ∫ from t-τ to t of a_w² dt)``, τ = 1 s, k = 1 (ISO 2631-1:1997, 6.3.1). Above 1.5 times
     the rms over the run, the rms alone underrates the shocks, and the note says so.
     """
-    found = _weighted_channel(run, "body_acceleration", "m/s²")
-    if isinstance(found, Number):
+    found = _weighted_channel(run, "body_acceleration")
+    if isinstance(found, Answer):
         return found
     time = run.time - run.time[0]
     if time[-1] < RUNNING_WINDOW:
-        return Number(None, "m/s²", f"the run is shorter than {RUNNING_WINDOW:g} s")
+        return Answer(None, f"the run is shorter than {RUNNING_WINDOW:g} s")
     power = found**2
     energy = np.concatenate([[0.0], np.cumsum((power[1:] + power[:-1]) / 2 * np.diff(time))])
     end = np.append(time[time >= RUNNING_WINDOW], time[-1])
@@ -182,31 +180,40 @@ def maximum_transient_vibration(run: Run) -> Number:
     at = int(np.argmax(inside))
     value = math.sqrt(inside[at] / RUNNING_WINDOW)
     shocks = "; shocks: heed it beside the rms" if value > 1.5 * math.sqrt(energy[-1] / time[-1]) else ""
-    return Number(value, "m/s²", f"in the second before {run.time[0] + end[at]:.3f} s{shocks}")
+    return Answer(value, f"in the second before {run.time[0] + end[at]:.3f} s{shocks}")
 
 
-def _weighted_rms(run: Run, channel: str) -> Number:
-    found = _weighted_channel(run, channel, "m/s²")
-    if isinstance(found, Number):
+def _weighted_rms(run: Run, channel: str) -> Answer:
+    found = _weighted_channel(run, channel)
+    if isinstance(found, Answer):
         return found
     value = math.sqrt(_integral(found**2, run) / float(run.time[-1] - run.time[0]))
-    return Number(value, "m/s²", comfort_word(value))
+    return Answer(value, comfort_word(value))
 
 
-def _weighted_channel(run: Run, channel: str, unit: str) -> np.ndarray | Number:
-    """Wk-weighted values of a channel, or the number that says why there are none."""
-    if channel not in run:
-        return Number(None, unit, f"the model has no {channel}", applies=False)
-    if len(run.time) < 2:
-        return Number(None, unit, "the run is a single instant", applies=False)
-    roads = run.stations("road_height").values()
-    if roads and not any(np.ptp(road) > 0 for road in roads):
-        return Number(None, unit, "needs a road that shakes the car", applies=False)
+def _weighted_channel(run: Run, channel: str) -> np.ndarray | Answer:
+    """Wk-weighted values of a channel, or the answer that says why there are none."""
     try:
         return weighted(run[channel], run.step, WEIGHTINGS["Wk"])
     except InputError as error:
-        return Number(None, unit, error.message)
+        return Answer(None, error.message)
 
 
 def _integral(values: np.ndarray, run: Run) -> float:
     return float(np.trapezoid(values, run.time))
+
+
+def _vibrates(run: Run) -> bool:
+    """Whether a road shakes the car, or nothing is known of the road."""
+    roads = run.stations("road_height").values()
+    return not roads or any(np.ptp(road) > 0 for road in roads)
+
+
+LASTS = Runs(lambda run: len(run.time) > 1, "the run is a single instant")
+VIBRATES = LASTS & Runs(_vibrates, "needs a road that shakes the car")
+NUMBERS = (
+    Measure(weighted_acceleration, "m/s²", recorded("body_acceleration") & VIBRATES),
+    Measure(weighted_seat_acceleration, "m/s²", recorded("seat_acceleration") & VIBRATES),
+    Measure(vibration_dose_value, "m/s^1.75", recorded("body_acceleration") & VIBRATES),
+    Measure(maximum_transient_vibration, "m/s²", recorded("body_acceleration") & VIBRATES),
+)

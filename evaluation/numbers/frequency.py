@@ -14,12 +14,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from susp_mj.names import channel_name
 from susp_mj.run import Run
 
-from .number import Number
+from .number import Answer, Measure, Runs
+from .runs import recorded
 
 LOW_EDGE, HIGH_EDGE = 1.3, 1.09
 """Factors in frequency by which the evaluated band stays away from the ends of the sweep."""
+LEAST = 1e-9
+"""Amplification below which a quantity does not respond."""
 
 
 @dataclass(frozen=True)
@@ -36,20 +40,28 @@ class Amplification:
 
 
 def amplification(run: Run, channel: str, station: str = "", points: int = 200) -> Amplification | None:
-    """Amplification of a channel over the road height of `station`; None if the run is not a sweep.
+    """Amplification of a channel over the road height of `station`; None if that road is not swept.
 
     Args:
         points: number of frequencies, evenly spaced on a logarithmic axis.
     """
-    if "excitation_phase" not in run:
+    if not road_swept(run):
         return None
     road = run.stations("road_height")
     reference = road[station] if station in road else next(iter(road.values()))
     swept = run["excitation_frequency"]
     low, high = float(swept[0]), float(swept[-1])
-    if not high > 2 * low or not np.any(reference):
+    if not np.any(reference):
         return None
     return deconvolved(reference, run[channel] - run[channel][0], run.step, (low, high), points)
+
+
+def road_swept(run: Run) -> bool:
+    """Whether the road is swept over frequency, under one wheel at least."""
+    if "excitation_phase" not in run:
+        return False
+    swept = run["excitation_frequency"]
+    return bool(swept[-1] > 2 * swept[0]) and any(np.any(road) for road in run.stations("road_height").values())
 
 
 def deconvolved(
@@ -97,63 +109,70 @@ def _window(time: np.ndarray, duration: float, ratio: float) -> np.ndarray:
     return (1 - np.cos(np.pi * rise)) / 2 * (1 - np.cos(np.pi * fall)) / 2
 
 
-def body_resonance(run: Run) -> Number:
+def body_resonance(run: Run) -> Answer:
     """Frequency of the largest amplification of the body's displacement [Hz]."""
-    return _peak(run, "body_displacement", "Hz", place=True)
+    return _peak(run, "body_displacement", place=True)
 
 
-def body_amplification(run: Run) -> Number:
+def body_amplification(run: Run) -> Answer:
     """Largest amplification of the body's displacement over the road height."""
-    return _peak(run, "body_displacement", "1")
+    return _peak(run, "body_displacement")
 
 
-def body_acceleration_amplification(run: Run) -> Number:
+def body_acceleration_amplification(run: Run) -> Answer:
     """Largest acceleration of the body per metre of road height [1/s²]."""
-    return _peak(run, "body_acceleration", "1/s²")
+    return _peak(run, "body_acceleration")
 
 
-def suspension_amplification(run: Run) -> Number:
+def suspension_amplification(run: Run) -> Answer:
     """Largest amplification of the suspension deflection over the road height."""
-    return _peak(run, "suspension_deflection", "1")
+    return _peak(run, "suspension_deflection")
 
 
-def wheel_load_amplification(run: Run) -> Number:
+def wheel_load_amplification(run: Run) -> Answer:
     """Largest wheel load amplitude per metre of road height [N/m]."""
-    return _peak(run, "wheel_load", "N/m")
+    return _peak(run, "wheel_load")
 
 
-def pitch_amplification(run: Run) -> Number:
+def pitch_amplification(run: Run) -> Answer:
     """Largest pitch angle per metre of road height [rad/m]."""
-    return _peak(run, "pitch_angle", "rad/m")
+    return _peak(run, "pitch_angle")
 
 
-def roll_amplification(run: Run) -> Number:
+def roll_amplification(run: Run) -> Answer:
     """Largest roll angle per metre of road height [rad/m]."""
-    return _peak(run, "roll_angle", "rad/m")
+    return _peak(run, "roll_angle")
 
 
-def wheel_resonance(run: Run) -> Number:
+def wheel_resonance(run: Run) -> Answer:
     """Frequency of the largest wheel load amplitude per metre of road, for wheels with mass [Hz]."""
-    if not run.stations("wheel_displacement"):
-        return Number(None, "Hz", "the wheels have no mass", applies=False)
-    return _peak(run, "wheel_load", "Hz", place=True)
+    return _peak(run, "wheel_load", place=True)
 
 
-def _peak(run: Run, quantity: str, unit: str, *, place: bool = False) -> Number:
+def _peak(run: Run, quantity: str, *, place: bool = False) -> Answer:
     """Largest amplification of a quantity over all stations, or the frequency at which it occurs."""
-    best: tuple[float, float, str] | None = None
+    best = (0.0, 0.0, "")
     for station in run.stations(quantity):
-        found = amplification(run, f"{station}_{quantity}" if station else quantity, station)
-        if found is None:
-            return Number(None, unit, "needs a sine sweep", applies=False)
-        at = int(np.argmax(np.abs(found.ratio)))
-        candidate = (float(np.abs(found.ratio[at])), float(found.frequency[at]), station)
-        best = candidate if best is None or candidate[0] > best[0] else best
-    if best is None:
-        return Number(None, unit, f"the run has no {quantity}", applies=False)
+        found = amplification(run, channel_name(station, quantity), station)
+        if found is not None:
+            at = int(np.argmax(np.abs(found.ratio)))
+            peak = float(np.abs(found.ratio[at]))
+            best = (peak, float(found.frequency[at]), station) if peak > best[0] else best
     peak, frequency, station = best
-    if peak < 1e-9:
-        return Number(None if place else 0.0, unit, "does not respond")
-    return Number(
-        frequency if place else peak, unit, (station if place else f"{station} at {frequency:.2f} Hz").strip()
-    )
+    if peak < LEAST:
+        return Answer(None if place else 0.0, "does not respond")
+    return Answer(frequency, station) if place else Answer(peak, f"{station} at {frequency:.2f} Hz".strip())
+
+
+ROAD_SWEPT = Runs(road_swept, "needs a sine sweep")
+WHEELS_WITH_MASS = Runs(lambda run: bool(run.stations("wheel_displacement")), "the wheels have no mass")
+NUMBERS = (
+    Measure(body_resonance, "Hz", ROAD_SWEPT & recorded("body_displacement")),
+    Measure(body_amplification, "1", ROAD_SWEPT & recorded("body_displacement")),
+    Measure(body_acceleration_amplification, "1/s²", ROAD_SWEPT & recorded("body_acceleration")),
+    Measure(suspension_amplification, "1", ROAD_SWEPT & recorded("suspension_deflection")),
+    Measure(wheel_resonance, "Hz", ROAD_SWEPT & WHEELS_WITH_MASS),
+    Measure(wheel_load_amplification, "N/m", ROAD_SWEPT & recorded("wheel_load")),
+    Measure(pitch_amplification, "rad/m", ROAD_SWEPT & recorded("pitch_angle")),
+    Measure(roll_amplification, "rad/m", ROAD_SWEPT & recorded("roll_angle")),
+)

@@ -14,8 +14,9 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .number import Number
-from .turns import RIG, fact, kind, missing, parameter, slope, stations_of
+from .number import Answer, Measure, Runs
+from .runs import facts, known, on_rig, parameter
+from .turns import slope, stations_of
 
 TRAVEL = 0.02
 """Travel to both sides of the design position within which slopes are fitted [m]."""
@@ -23,145 +24,139 @@ SHARE = 0.5
 """Share of a test's amplitude within which slopes over forces and angles are fitted."""
 
 
-def bump_steer_front(run: Run) -> Number:
+def bump_steer_front(run: Run) -> Answer:
     """Toe-in per travel of a front wheel, positive: toe-in in bump [rad/m]."""
-    return _over_travel(run, "front", "steer_angle", "rad/m", mirrored=-1.0)
+    return _over_travel(run, "front", "steer_angle", mirrored=-1.0)
 
 
-def bump_steer_rear(run: Run) -> Number:
+def bump_steer_rear(run: Run) -> Answer:
     """Toe-in per travel of a rear wheel, positive: toe-in in bump [rad/m]."""
-    return _over_travel(run, "rear", "steer_angle", "rad/m", mirrored=-1.0)
+    return _over_travel(run, "rear", "steer_angle", mirrored=-1.0)
 
 
-def bump_camber_front(run: Run) -> Number:
+def bump_camber_front(run: Run) -> Answer:
     """Camber against the body per travel of a front wheel, negative: the top moves inwards in bump [rad/m]."""
-    return _over_travel(run, "front", "inclination_angle", "rad/m")
+    return _over_travel(run, "front", "inclination_angle")
 
 
-def bump_camber_rear(run: Run) -> Number:
+def bump_camber_rear(run: Run) -> Answer:
     """Camber against the body per travel of a rear wheel, negative: the top moves inwards in bump [rad/m]."""
-    return _over_travel(run, "rear", "inclination_angle", "rad/m")
+    return _over_travel(run, "rear", "inclination_angle")
 
 
-def wheel_rate_front(run: Run) -> Number:
+def wheel_rate_front(run: Run) -> Answer:
     """Wheel load per travel of a front wheel, both wheels moving alike [N/m]."""
-    return _over_travel(run, "front", "wheel_load", "N/m")
+    return _over_travel(run, "front", "wheel_load")
 
 
-def wheel_rate_rear(run: Run) -> Number:
+def wheel_rate_rear(run: Run) -> Answer:
     """Wheel load per travel of a rear wheel, both wheels moving alike [N/m]."""
-    return _over_travel(run, "rear", "wheel_load", "N/m")
+    return _over_travel(run, "rear", "wheel_load")
 
 
-def roll_centre_height_front(run: Run) -> Number:
+def roll_centre_height_front(run: Run) -> Answer:
     """Height of the front roll centre above the ground [m]: ``t/2 dy/dz``, y the contact patch's movement outwards over
     travel z."""
     return _roll_centre(run, "front")
 
 
-def roll_centre_height_rear(run: Run) -> Number:
+def roll_centre_height_rear(run: Run) -> Answer:
     """Height of the rear roll centre above the ground [m]: ``t/2 dy/dz``, y the contact patch's movement outwards over
     travel z."""
     return _roll_centre(run, "rear")
 
 
-def path_angle_front(run: Run) -> Number:
+def path_angle_front(run: Run) -> Answer:
     """Angle of a front wheel's path, positive: anti-dive [rad]: ``atan(dx/dz)``, x the contact patch's movement
     forwards in bump."""
     return _path_angle(run, "front", 1.0)
 
 
-def path_angle_rear(run: Run) -> Number:
+def path_angle_rear(run: Run) -> Answer:
     """Angle of a rear wheel's path, positive: anti-lift [rad]: ``atan(-dx/dz)``, x the contact patch's movement
     forwards in bump."""
     return _path_angle(run, "rear", -1.0)
 
 
-def roll_steer_front(run: Run) -> Number:
+def roll_steer_front(run: Run) -> Answer:
     """Mean steer angle of the front wheels per roll angle [rad/rad], positive: roll steers them into the turn that
     causes it."""
     return _over_roll(run, "front", "steer_angle")
 
 
-def roll_steer_rear(run: Run) -> Number:
+def roll_steer_rear(run: Run) -> Answer:
     """Mean steer angle of the rear wheels per roll angle [rad/rad], positive: roll steers them into the turn that
     causes it."""
     return _over_roll(run, "rear", "steer_angle")
 
 
-def roll_camber_front(run: Run) -> Number:
+def roll_camber_front(run: Run) -> Answer:
     """Mean camber of the front wheels to the road per roll angle [rad/rad]; 1: they lean with the body."""
     return _over_roll(run, "front", "camber_angle")
 
 
-def roll_camber_rear(run: Run) -> Number:
+def roll_camber_rear(run: Run) -> Answer:
     """Mean camber of the rear wheels to the road per roll angle [rad/rad]; 1: they lean with the body."""
     return _over_roll(run, "rear", "camber_angle")
 
 
-def roll_stiffness_front(run: Run) -> Number:
+def roll_stiffness_front(run: Run) -> Answer:
     """Roll stiffness of the front suspension [N m/rad]: ``t/2 d(F_r - F_l)/d phi``, phi from the difference of the
     wheels' travels."""
     return _roll_stiffness(run, "front")
 
 
-def roll_stiffness_rear(run: Run) -> Number:
+def roll_stiffness_rear(run: Run) -> Answer:
     """Roll stiffness of the rear suspension [N m/rad]: ``t/2 d(F_r - F_l)/d phi``, phi from the difference of the
     wheels' travels."""
     return _roll_stiffness(run, "rear")
 
 
-def steering_ratio(run: Run) -> Number:
+def steering_ratio(run: Run) -> Answer:
     """Steering wheel angle per mean steer angle of the front wheels about the centre."""
-    if not _tested(run, "steer"):
-        return missing("1", "needs the test 'steer' on the rig")
     wheels = _mean(run, "front", "steer_angle")
     found = _fit(run["steering_wheel_angle"], wheels, SHARE / 5 * float(np.abs(run["steering_wheel_angle"]).max()))
-    return Number(None, "1", "the wheels do not turn") if not found else Number(1 / found, "1")
+    return Answer(None, "the wheels do not turn") if not found else Answer(1 / found)
 
 
-def lateral_force_steer_front(run: Run) -> Number:
+def lateral_force_steer_front(run: Run) -> Answer:
     """Steer angle of a front wheel per lateral force on it [rad/N], positive: it turns towards where it is pushed."""
-    return _over_force(run, "front", "lateral_force", "steer_angle", "rad/N")
+    return _over_force(run, "front", "lateral_force", "steer_angle")
 
 
-def lateral_force_steer_rear(run: Run) -> Number:
+def lateral_force_steer_rear(run: Run) -> Answer:
     """Steer angle of a rear wheel per lateral force on it [rad/N], positive: it turns towards where it is pushed."""
-    return _over_force(run, "rear", "lateral_force", "steer_angle", "rad/N")
+    return _over_force(run, "rear", "lateral_force", "steer_angle")
 
 
-def lateral_force_camber_front(run: Run) -> Number:
+def lateral_force_camber_front(run: Run) -> Answer:
     """Camber of a front wheel per lateral force on it [rad/N], positive: it leans out of where it is pushed."""
-    return _over_force(run, "front", "lateral_force", "camber_angle", "rad/N")
+    return _over_force(run, "front", "lateral_force", "camber_angle")
 
 
-def lateral_force_camber_rear(run: Run) -> Number:
+def lateral_force_camber_rear(run: Run) -> Answer:
     """Camber of a rear wheel per lateral force on it [rad/N], positive: it leans out of where it is pushed."""
-    return _over_force(run, "rear", "lateral_force", "camber_angle", "rad/N")
+    return _over_force(run, "rear", "lateral_force", "camber_angle")
 
 
-def longitudinal_force_steer_front(run: Run) -> Number:
+def longitudinal_force_steer_front(run: Run) -> Answer:
     """Toe-in of a front wheel per forward force on it [rad/N]."""
     return _toe_over_force(run, "front")
 
 
-def longitudinal_force_steer_rear(run: Run) -> Number:
+def longitudinal_force_steer_rear(run: Run) -> Answer:
     """Toe-in of a rear wheel per forward force on it [rad/N]."""
     return _toe_over_force(run, "rear")
 
 
-def aligning_moment_steer_front(run: Run) -> Number:
+def aligning_moment_steer_front(run: Run) -> Answer:
     """Steer angle of a front wheel per moment about the vertical on it [rad/(N m)]."""
-    return _over_force(run, "front", "aligning_moment", "steer_angle", "rad/(N m)")
+    return _over_force(run, "front", "aligning_moment", "steer_angle")
 
 
-def aligning_moment_steer_rear(run: Run) -> Number:
+def aligning_moment_steer_rear(run: Run) -> Answer:
     """Steer angle of a rear wheel per moment about the vertical on it [rad/(N m)]."""
-    return _over_force(run, "rear", "aligning_moment", "steer_angle", "rad/(N m)")
-
-
-def _tested(run: Run, test: str) -> bool:
-    return kind(run) == RIG and parameter(run, "test") == test
+    return _over_force(run, "rear", "aligning_moment", "steer_angle")
 
 
 def _mean(run: Run, axle: str, quantity: str) -> np.ndarray:
@@ -175,82 +170,102 @@ def _fit(x: np.ndarray, y: np.ndarray, reach: float) -> float | None:
     return slope(x[inside], y[inside]) if reach > 0 and np.sum(inside) > 5 and np.ptp(x[inside]) > reach / 2 else None
 
 
-def _over_travel(run: Run, axle: str, quantity: str, unit: str, *, mirrored: float = 1.0) -> Number:
+def _over_travel(run: Run, axle: str, quantity: str, *, mirrored: float = 1.0) -> Answer:
     """Mean slope over the travel of an axle's wheels; a mirrored quantity counts with that sign on the left, its
     opposite on the right."""
-    if not _tested(run, "bump"):
-        return missing(unit, "needs the test 'bump' on the rig")
     signs = (mirrored, 1.0) if mirrored < 0 else (1.0, 1.0)
     slopes = [
         _fit(run[f"{station}_suspension_deflection"], sign * run[f"{station}_{quantity}"], TRAVEL)
         for station, sign in zip(stations_of(axle), signs, strict=True)
     ]
-    return _average(slopes, unit, f"within {1000 * TRAVEL:.0f} mm")
+    return _average(slopes, f"within {1000 * TRAVEL:.0f} mm")
 
 
-def _roll_centre(run: Run, axle: str) -> Number:
-    track = fact(run, f"track_{axle}")
-    if not _tested(run, "bump") or track is None:
-        return missing("m", "needs the test 'bump' on the rig")
+def _roll_centre(run: Run, axle: str) -> Answer:
     outwards = [
         _fit(run[f"{station}_suspension_deflection"], sign * run[f"{station}_contact_y"], TRAVEL)
         for station, sign in zip(stations_of(axle), (1.0, -1.0), strict=True)
     ]
-    number = _average(outwards, "m", "")
-    return number if number.value is None else Number(number.value * track / 2, "m")
+    found = _average(outwards)
+    return found if found.value is None else Answer(found.value * facts(run)[f"track_{axle}"] / 2)
 
 
-def _path_angle(run: Run, axle: str, sign: float) -> Number:
-    number = _over_travel(run, axle, "contact_x", "rad")
-    return number if number.value is None else Number(math.atan(sign * number.value), "rad")
+def _path_angle(run: Run, axle: str, sign: float) -> Answer:
+    found = _over_travel(run, axle, "contact_x")
+    return found if found.value is None else Answer(math.atan(sign * found.value))
 
 
-def _over_roll(run: Run, axle: str, quantity: str) -> Number:
-    if not _tested(run, "roll"):
-        return missing("1", "needs the test 'roll' on the rig")
+def _over_roll(run: Run, axle: str, quantity: str) -> Answer:
     roll = run["roll_angle"]
     found = _fit(roll, _mean(run, axle, quantity), SHARE * float(np.abs(roll).max()))
-    return Number(found, "1", "" if found is not None else "does not roll")
+    return Answer(found, "" if found is not None else "does not roll")
 
 
-def _roll_stiffness(run: Run, axle: str) -> Number:
-    unit, track = "N m/rad", fact(run, f"track_{axle}")
-    if not _tested(run, "roll") or track is None:
-        return missing(unit, "needs the test 'roll' on the rig")
+def _roll_stiffness(run: Run, axle: str) -> Answer:
+    track = facts(run)[f"track_{axle}"]
     (left, right), (load_left, load_right) = (
         [run[f"{station}_{quantity}"] for station in stations_of(axle)]
         for quantity in ("suspension_deflection", "wheel_load")
     )
     angle = (right - left) / track
     found = _fit(angle, track / 2 * (load_right - load_left), SHARE * float(np.abs(angle).max()))
-    return Number(found, unit, "" if found is not None else "does not roll")
+    return Answer(found, "" if found is not None else "does not roll")
 
 
-def _over_force(run: Run, axle: str, force: str, quantity: str, unit: str) -> Number:
-    if not _tested(run, force):
-        return missing(unit, f"needs the test '{force}' on the rig")
+def _over_force(run: Run, axle: str, force: str, quantity: str) -> Answer:
     slopes = []
     for station in stations_of(axle):
         pushed = run[f"{station}_{force}"]
         slopes.append(_fit(pushed, run[f"{station}_{quantity}"], SHARE * float(np.abs(pushed).max())))
-    return _average(slopes, unit, "opposed" if parameter(run, "opposed", False) else "")
+    return _average(slopes, "opposed" if parameter(run, "opposed", False) else "")
 
 
-def _toe_over_force(run: Run, axle: str) -> Number:
-    unit = "rad/N"
-    if not _tested(run, "longitudinal_force"):
-        return missing(unit, "needs the test 'longitudinal_force' on the rig")
+def _toe_over_force(run: Run, axle: str) -> Answer:
     slopes = []
     for station, inwards in zip(stations_of(axle), (-1.0, 1.0), strict=True):
         pushed = run[f"{station}_longitudinal_force"]
         slopes.append(_fit(pushed, inwards * run[f"{station}_steer_angle"], SHARE * float(np.abs(pushed).max())))
-    return _average(slopes, unit, "opposed" if parameter(run, "opposed", False) else "")
+    return _average(slopes, "opposed" if parameter(run, "opposed", False) else "")
 
 
-def _average(slopes: list[float | None], unit: str, note: str) -> Number:
-    known = [each for each in slopes if each is not None]
-    return (
-        Number(sum(known) / len(known), unit, note)
-        if len(known) == len(slopes)
-        else Number(None, unit, "does not move far enough")
-    )
+def _average(slopes: list[float | None], note: str = "") -> Answer:
+    fitted = [each for each in slopes if each is not None]
+    if len(fitted) < len(slopes):
+        return Answer(None, "does not move far enough")
+    return Answer(sum(fitted) / len(fitted), note)
+
+
+def tested(test: str) -> Runs:
+    """Runs of a test on the rig."""
+    return Runs(lambda run: on_rig(run) and parameter(run, "test") == test, f"needs the test '{test}' on the rig")
+
+
+BUMP, ROLL, STEER = tested("bump"), tested("roll"), tested("steer")
+LATERAL, LONGITUDINAL, ALIGNING = tested("lateral_force"), tested("longitudinal_force"), tested("aligning_moment")
+NUMBERS = (
+    Measure(bump_steer_front, "rad/m", BUMP),
+    Measure(bump_steer_rear, "rad/m", BUMP),
+    Measure(bump_camber_front, "rad/m", BUMP),
+    Measure(bump_camber_rear, "rad/m", BUMP),
+    Measure(wheel_rate_front, "N/m", BUMP),
+    Measure(wheel_rate_rear, "N/m", BUMP),
+    Measure(roll_centre_height_front, "m", BUMP & known("track_front")),
+    Measure(roll_centre_height_rear, "m", BUMP & known("track_rear")),
+    Measure(path_angle_front, "rad", BUMP),
+    Measure(path_angle_rear, "rad", BUMP),
+    Measure(roll_steer_front, "1", ROLL),
+    Measure(roll_steer_rear, "1", ROLL),
+    Measure(roll_camber_front, "1", ROLL),
+    Measure(roll_camber_rear, "1", ROLL),
+    Measure(roll_stiffness_front, "N m/rad", ROLL & known("track_front")),
+    Measure(roll_stiffness_rear, "N m/rad", ROLL & known("track_rear")),
+    Measure(steering_ratio, "1", STEER),
+    Measure(lateral_force_steer_front, "rad/N", LATERAL),
+    Measure(lateral_force_steer_rear, "rad/N", LATERAL),
+    Measure(lateral_force_camber_front, "rad/N", LATERAL),
+    Measure(lateral_force_camber_rear, "rad/N", LATERAL),
+    Measure(longitudinal_force_steer_front, "rad/N", LONGITUDINAL),
+    Measure(longitudinal_force_steer_rear, "rad/N", LONGITUDINAL),
+    Measure(aligning_moment_steer_front, "rad/(N m)", ALIGNING),
+    Measure(aligning_moment_steer_rear, "rad/(N m)", ALIGNING),
+)

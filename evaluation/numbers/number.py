@@ -1,7 +1,8 @@
-"""Number: one evaluation result with its unit; Criterion: the band it has to lie in."""
+"""Number: one evaluation result with its unit; Measure: the question that it answers; Criterion: the band for it."""
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -25,7 +26,78 @@ class Number:
     applies: bool = True
 
 
-Evaluate = Callable[[Run], Number]
+@dataclass(frozen=True)
+class Answer:
+    """What the function of a measure returns; value, note and applies as in `Number`, the unit is the measure's."""
+
+    value: float | None
+    note: str = ""
+    applies: bool = True
+
+
+def no_question(note: str) -> Answer:
+    """Answer to a question that turns out to make no sense for the run."""
+    return Answer(None, note, applies=False)
+
+
+@dataclass(frozen=True)
+class Runs:
+    """A kind of run; ``a & b`` are the runs that are both, ``run in a`` asks whether a run is one.
+
+    Attributes:
+        holds: whether a run is of the kind.
+        otherwise: what a run is or has not that is of another kind, one phrase.
+    """
+
+    holds: Callable[[Run], bool]
+    otherwise: str
+    also: tuple[Runs, ...] = ()
+
+    def __and__(self, other: Runs) -> Runs:
+        return Runs(self.holds, self.otherwise, (*self.also, other))
+
+    def __contains__(self, run: Run) -> bool:
+        return self.refuse(run) is None
+
+    def refuse(self, run: Run) -> str | None:
+        """Why a run is of another kind, or None."""
+        if not self.holds(run):
+            return self.otherwise
+        return next((reason for each in self.also if (reason := each.refuse(run)) is not None), None)
+
+
+EVERY_RUN = Runs(lambda run: True, "")
+
+
+@dataclass(frozen=True)
+class Measure:
+    """A question to a run that is answered by a number.
+
+    Attributes:
+        function: gives the answer for a run of the kind; its name is the number's, its docstring says what it is.
+        unit: SI unit of the number, "1" for a pure one.
+        runs: for which runs the question makes sense.
+    """
+
+    function: Callable[[Run], Answer]
+    unit: str
+    runs: Runs = EVERY_RUN
+
+    def __call__(self, run: Run) -> Number:
+        """The number of a run."""
+        reason = self.runs.refuse(run)
+        answer = self.function(run) if reason is None else no_question(reason)
+        return Number(answer.value, self.unit, answer.note, answer.applies)
+
+    @property
+    def name(self) -> str:
+        """Name in case files, summaries and reports."""
+        return self.function.__name__
+
+    @property
+    def description(self) -> str:
+        """What it is: the opening paragraph of the function's docstring, on one line."""
+        return " ".join((inspect.getdoc(self.function) or "").split("\n\n")[0].split())
 
 
 @dataclass(frozen=True)

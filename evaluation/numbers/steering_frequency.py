@@ -16,17 +16,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from susp_mj.names import QUANTITIES
 from susp_mj.run import Run
 
 from ..display import quantity_text
 from .frequency import deconvolved
-from .number import Number
-from .turns import drives, missing
+from .number import Answer, Measure, Runs, no_question
+from .runs import drives
 
 SEGMENT = 2.0
 """Length of a segment of Welch's method, in periods of the lowest frequency."""
 REFERENCE = 1.0
 """Frequency [Hz] at which phase and delay are given."""
+LEAST = 1e-12
+"""Gain below which a channel does not respond."""
 
 
 @dataclass(frozen=True)
@@ -63,14 +66,21 @@ class Response:
 def steering_response(run: Run, channel: str, points: int = 200) -> Response | None:
     """Response of a channel to the steering wheel over frequency; None if the run is not a sweep of the steering
     wheel."""
-    if not drives(run) or "excitation_frequency" not in run or channel not in run:
-        return None
-    steering = run["steering_wheel_angle"] - run["steering_wheel_angle"][0]
+    return _read(run, channel, points) if _steering_swept(run) and channel in run else None
+
+
+def _steering_swept(run: Run) -> bool:
+    """Whether the steering wheel of a freely driving car is swept over frequency."""
+    if not drives(run) or "excitation_frequency" not in run:
+        return False
+    swept = run["excitation_frequency"]
+    return bool(np.ptp(run["steering_wheel_angle"]) > 0.0 and swept[-1] > 1.5 * swept[0])
+
+
+def _read(run: Run, channel: str, points: int = 200) -> Response:
+    steering, values = (run[name] - run[name][0] for name in ("steering_wheel_angle", channel))
     swept = run["excitation_frequency"]
     low, high = float(swept[0]), float(swept[-1])
-    if not np.any(steering) or not high > 1.5 * low:
-        return None
-    values = run[channel] - run[channel][0]
     found = deconvolved(steering, values, run.step, (low, high), points)
     return Response(found.frequency, found.ratio, _coherence(steering, values, run.step, low, found.frequency))
 
@@ -86,106 +96,120 @@ def _coherence(reference: np.ndarray, values: np.ndarray, step: float, low: floa
     return np.interp(wanted, frequency, coherence)
 
 
-def yaw_rate_gain_peak(run: Run) -> Number:
+def yaw_rate_gain_peak(run: Run) -> Answer:
     """Largest yaw rate per steering wheel angle over frequency [1/s]."""
-    return _peak(run, "yaw_rate", "1/s")
+    return _peak(run, "yaw_rate")
 
 
-def yaw_rate_peak_frequency(run: Run) -> Number:
+def yaw_rate_peak_frequency(run: Run) -> Answer:
     """Frequency of the largest yaw rate per steering wheel angle [Hz]."""
     return _peak_frequency(run, "yaw_rate")
 
 
-def yaw_rate_phase(run: Run) -> Number:
+def yaw_rate_phase(run: Run) -> Answer:
     """Phase of the yaw rate against the steering wheel at 1 Hz [rad], negative: it lags."""
     return _phase(run, "yaw_rate")
 
 
-def yaw_rate_delay(run: Run) -> Number:
+def yaw_rate_delay(run: Run) -> Answer:
     """Equivalent time delay of the yaw rate [s]: ``-phase/(2 pi f)`` at 1 Hz."""
     return _delay(run, "yaw_rate")
 
 
-def lateral_acceleration_gain_peak(run: Run) -> Number:
+def lateral_acceleration_gain_peak(run: Run) -> Answer:
     """Largest lateral acceleration per steering wheel angle over frequency [m/s²/rad]."""
-    return _peak(run, "lateral_acceleration", "m/s²/rad")
+    return _peak(run, "lateral_acceleration")
 
 
-def lateral_acceleration_phase(run: Run) -> Number:
+def lateral_acceleration_phase(run: Run) -> Answer:
     """Phase of the lateral acceleration against the steering wheel at 1 Hz [rad], negative: it lags."""
     return _phase(run, "lateral_acceleration")
 
 
-def lateral_acceleration_delay(run: Run) -> Number:
+def lateral_acceleration_delay(run: Run) -> Answer:
     """Equivalent time delay of the lateral acceleration [s]: ``-phase/(2 pi f)`` at 1 Hz."""
     return _delay(run, "lateral_acceleration")
 
 
-def roll_angle_gain_peak(run: Run) -> Number:
+def roll_angle_gain_peak(run: Run) -> Answer:
     """Largest roll angle per steering wheel angle over frequency [rad/rad]."""
-    return _peak(run, "roll_angle", "1")
+    return _peak(run, "roll_angle")
 
 
-def roll_angle_peak_frequency(run: Run) -> Number:
+def roll_angle_peak_frequency(run: Run) -> Answer:
     """Frequency of the largest roll angle per steering wheel angle [Hz]."""
     return _peak_frequency(run, "roll_angle")
 
 
-def side_slip_gain_peak(run: Run) -> Number:
+def side_slip_gain_peak(run: Run) -> Answer:
     """Largest side slip angle of the centre of gravity per steering wheel angle over frequency [rad/rad]."""
-    return _peak(run, "side_slip_angle", "1")
+    return _peak(run, "side_slip_angle")
 
 
-def side_slip_peak_frequency(run: Run) -> Number:
+def side_slip_peak_frequency(run: Run) -> Answer:
     """Frequency of the largest side slip angle of the centre of gravity per steering wheel angle [Hz]."""
     return _peak_frequency(run, "side_slip_angle")
 
 
-def rear_side_slip_gain_peak(run: Run) -> Number:
+def rear_side_slip_gain_peak(run: Run) -> Answer:
     """Largest side slip angle at the rear axle per steering wheel angle over frequency [rad/rad]."""
-    return _peak(run, "rear_side_slip_angle", "1")
+    return _peak(run, "rear_side_slip_angle")
 
 
-def _response(run: Run, channel: str) -> Response | None:
-    found = steering_response(run, channel)
-    return None if found is None or found.gain.max() < 1e-12 else found
+_GAIN_UNITS = {"rad/s": "1/s", "m/s²": "m/s²/rad", "rad": "1"}
 
 
-def _peak(run: Run, channel: str, unit: str) -> Number:
-    found = _response(run, channel)
-    if found is None:
-        return missing(unit, "needs a sine sweep of the steering wheel")
+def gain_unit(quantity: str) -> str:
+    """SI unit of a quantity per steering wheel angle."""
+    return _GAIN_UNITS[QUANTITIES[quantity][0]]
+
+
+def _peak(run: Run, channel: str) -> Answer:
+    found = _read(run, channel)
     at = int(np.argmax(found.gain))
-    slow = quantity_text(float(found.gain[0]), unit)
-    return Number(
-        float(found.gain[at]), unit, f"at {found.frequency[at]:.2f} Hz; {slow} at {found.frequency[0]:.2f} Hz"
-    )
+    if found.gain[at] < LEAST:
+        return no_question("does not respond")
+    slow = quantity_text(float(found.gain[0]), gain_unit(channel))
+    return Answer(float(found.gain[at]), f"at {found.frequency[at]:.2f} Hz; {slow} at {found.frequency[0]:.2f} Hz")
 
 
-def _peak_frequency(run: Run, channel: str) -> Number:
-    found = _response(run, channel)
-    if found is None:
-        return missing("Hz", "needs a sine sweep of the steering wheel")
+def _peak_frequency(run: Run, channel: str) -> Answer:
+    found = _read(run, channel)
     at = int(np.argmax(found.gain))
+    if found.gain[at] < LEAST:
+        return no_question("does not respond")
     if at in (0, len(found.gain) - 1):
-        return Number(
-            None,
-            "Hz",
-            f"no peak: largest at the {'lowest' if at == 0 else 'highest'} frequency, {found.frequency[at]:.2f} Hz",
-        )
-    return Number(float(found.frequency[at]), "Hz")
+        end = "lowest" if at == 0 else "highest"
+        return Answer(None, f"no peak: largest at the {end} frequency, {found.frequency[at]:.2f} Hz")
+    return Answer(float(found.frequency[at]))
 
 
-def _phase(run: Run, channel: str) -> Number:
-    found = _response(run, channel)
-    if found is None:
-        return missing("rad", "needs a sine sweep of the steering wheel")
+def _phase(run: Run, channel: str) -> Answer:
+    found = _read(run, channel)
+    if found.gain.max() < LEAST:
+        return no_question("does not respond")
     if not found.frequency[0] <= REFERENCE <= found.frequency[-1]:
-        return Number(None, "rad", f"the sweep does not cover {REFERENCE:g} Hz")
-    return Number(float(np.interp(REFERENCE, found.frequency, found.phase)), "rad")
+        return Answer(None, f"the sweep does not cover {REFERENCE:g} Hz")
+    return Answer(float(np.interp(REFERENCE, found.frequency, found.phase)))
 
 
-def _delay(run: Run, channel: str) -> Number:
+def _delay(run: Run, channel: str) -> Answer:
     phase = _phase(run, channel)
-    value = None if phase.value is None else -phase.value / (2 * math.pi * REFERENCE)
-    return Number(value, "s", phase.note, phase.applies)
+    return phase if phase.value is None else Answer(-phase.value / (2 * math.pi * REFERENCE), phase.note)
+
+
+SWEPT = Runs(_steering_swept, "needs a sine sweep of the steering wheel")
+NUMBERS = (
+    Measure(yaw_rate_gain_peak, gain_unit("yaw_rate"), SWEPT),
+    Measure(yaw_rate_peak_frequency, "Hz", SWEPT),
+    Measure(yaw_rate_phase, "rad", SWEPT),
+    Measure(yaw_rate_delay, "s", SWEPT),
+    Measure(lateral_acceleration_gain_peak, gain_unit("lateral_acceleration"), SWEPT),
+    Measure(lateral_acceleration_phase, "rad", SWEPT),
+    Measure(lateral_acceleration_delay, "s", SWEPT),
+    Measure(roll_angle_gain_peak, gain_unit("roll_angle"), SWEPT),
+    Measure(roll_angle_peak_frequency, "Hz", SWEPT),
+    Measure(side_slip_gain_peak, gain_unit("side_slip_angle"), SWEPT),
+    Measure(side_slip_peak_frequency, "Hz", SWEPT),
+    Measure(rear_side_slip_gain_peak, gain_unit("rear_side_slip_angle"), SWEPT),
+)

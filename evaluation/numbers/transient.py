@@ -14,8 +14,9 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .number import Number
-from .turns import drives, first, kind, missing, parameter
+from .number import Answer, Measure, Runs
+from .runs import drives, kind, parameter
+from .turns import first
 
 REACHED = 0.9
 """Share of the steady state at which a response counts as there."""
@@ -42,18 +43,12 @@ class Step:
     angle: float
 
 
-def step_response(run: Run, channel: str) -> Step | None:
-    """Response of a channel to the step of the steering wheel; None if the run has no step."""
-    if not drives(run) or kind(run) != "step_steer" or channel not in run:
-        return None
+def step_response(run: Run, channel: str) -> Step:
+    """Response of a channel to the step of the steering wheel."""
     steering = run["steering_wheel_angle"] - run["steering_wheel_angle"][0]
     largest = steering[int(np.argmax(np.abs(steering)))]
-    if largest == 0.0:
-        return None
     turned = steering / largest
-    half, held = first(turned >= 0.5), first(turned >= 0.999)
-    if half is None or held is None:
-        return None
+    half, held = int(np.argmax(turned >= 0.5)), int(np.argmax(turned >= 0.999))
     given_up = first(turned[held:] < 0.999)
     end = len(turned) if given_up is None else held + given_up
     begin = (
@@ -71,46 +66,44 @@ def step_response(run: Run, channel: str) -> Step | None:
     return Step(run.time[half:end] - begin, values[half:end], steady, note, float(largest))
 
 
-def yaw_rate_response_time(run: Run) -> Number:
+def yaw_rate_response_time(run: Run) -> Answer:
     """Time until the yaw rate reaches 90 % of its steady state [s]."""
     return _response_time(run, "yaw_rate")
 
 
-def lateral_acceleration_response_time(run: Run) -> Number:
+def lateral_acceleration_response_time(run: Run) -> Answer:
     """Time until the lateral acceleration reaches 90 % of its steady state [s]."""
     return _response_time(run, "lateral_acceleration")
 
 
-def roll_angle_response_time(run: Run) -> Number:
+def roll_angle_response_time(run: Run) -> Answer:
     """Time until the roll angle reaches 90 % of its steady state [s]."""
     return _response_time(run, "roll_angle")
 
 
-def yaw_rate_peak_response_time(run: Run) -> Number:
+def yaw_rate_peak_response_time(run: Run) -> Answer:
     """Time until the yaw rate has its first peak [s]; no value without overshoot."""
     step = step_response(run, "yaw_rate")
-    if step is None:
-        return missing("s", "needs a step of the steering wheel")
     found = _peak(step)
-    return Number(None, "s", "does not overshoot") if found is None else Number(found[0], "s", step.note)
+    return Answer(None, "does not overshoot") if found is None else Answer(found[0], step.note)
 
 
-def yaw_rate_overshoot(run: Run) -> Number:
+def yaw_rate_overshoot(run: Run) -> Answer:
     """Overshoot of the yaw rate over its steady state, as a share of it."""
     return _overshoot(run, "yaw_rate")
 
 
-def lateral_acceleration_overshoot(run: Run) -> Number:
+def lateral_acceleration_overshoot(run: Run) -> Answer:
     """Overshoot of the lateral acceleration over its steady state, as a share of it."""
     return _overshoot(run, "lateral_acceleration")
 
 
-def roll_angle_overshoot(run: Run) -> Number:
+def roll_angle_overshoot(run: Run) -> Answer:
     """Overshoot of the roll angle over its steady state, as a share of it."""
     return _overshoot(run, "roll_angle")
 
 
-def tb_factor(run: Run) -> Number:
+def tb_factor(run: Run) -> Answer:
     """TB factor [rad s]: peak response time of the yaw rate times the steady side slip angle, without sign.
 
     Small is good: the car answers quickly and its tail stays behind its nose.
@@ -118,52 +111,42 @@ def tb_factor(run: Run) -> Number:
     Source: M. Mitschke, H. Wallentowitz, Dynamik der Kraftfahrzeuge.
     """
     time, slip = yaw_rate_peak_response_time(run), step_response(run, "side_slip_angle")
-    if not time.applies or slip is None:
-        return missing("rad s", "needs a step of the steering wheel")
-    return (
-        Number(None, "rad s", time.note)
-        if time.value is None
-        else Number(time.value * abs(slip.steady), "rad s", slip.note)
-    )
+    return time if time.value is None else Answer(time.value * abs(slip.steady), slip.note)
 
 
-def yaw_rate_gain(run: Run) -> Number:
+def yaw_rate_gain(run: Run) -> Answer:
     """Steady yaw rate per steering wheel angle after a step [1/s]."""
-    return _gain(run, "yaw_rate", "1/s")
+    return _gain(run, "yaw_rate")
 
 
-def lateral_acceleration_gain(run: Run) -> Number:
+def lateral_acceleration_gain(run: Run) -> Answer:
     """Steady lateral acceleration per steering wheel angle after a step [m/s²/rad]."""
-    return _gain(run, "lateral_acceleration", "m/s²/rad")
+    return _gain(run, "lateral_acceleration")
 
 
-def roll_angle_gain(run: Run) -> Number:
+def roll_angle_gain(run: Run) -> Answer:
     """Steady roll angle per steering wheel angle after a step [rad/rad]."""
-    return _gain(run, "roll_angle", "1")
+    return _gain(run, "roll_angle")
 
 
-def side_slip_angle_steady(run: Run) -> Number:
+def side_slip_angle_steady(run: Run) -> Answer:
     """Steady side slip angle of the centre of gravity after a step [rad], negative: the car points into a left turn."""
     step = step_response(run, "side_slip_angle")
-    return (
-        missing("rad", "needs a step of the steering wheel") if step is None else Number(step.steady, "rad", step.note)
-    )
+    return Answer(step.steady, step.note)
 
 
-def _response_time(run: Run, channel: str) -> Number:
+def _response_time(run: Run, channel: str) -> Answer:
     step = step_response(run, channel)
-    if step is None:
-        return missing("s", "needs a step of the steering wheel")
     if step.steady == 0.0:
-        return Number(None, "s", "does not respond")
+        return Answer(None, "does not respond")
     share = step.values / step.steady
     at = first(share >= REACHED)
     if at is None:
-        return Number(None, "s", "does not get there")
+        return Answer(None, "does not get there")
     if at == 0:
-        return Number(float(step.time[0]), "s", step.note)
+        return Answer(float(step.time[0]), step.note)
     between = (REACHED - share[at - 1]) / (share[at] - share[at - 1])
-    return Number(float(step.time[at - 1] + between * (step.time[at] - step.time[at - 1])), "s", step.note)
+    return Answer(float(step.time[at - 1] + between * (step.time[at] - step.time[at - 1])), step.note)
 
 
 def _peak(step: Step) -> tuple[float, float] | None:
@@ -175,18 +158,34 @@ def _peak(step: Step) -> tuple[float, float] | None:
     return (float(step.time[at]), float(share[at])) if share[at] > 1.0 + 1e-3 and at < len(share) - 1 else None
 
 
-def _overshoot(run: Run, channel: str) -> Number:
+def _overshoot(run: Run, channel: str) -> Answer:
     step = step_response(run, channel)
-    if step is None:
-        return missing("1", "needs a step of the steering wheel")
     found = _peak(step)
-    return Number(0.0, "1", "does not overshoot") if found is None else Number(found[1] - 1.0, "1", step.note)
+    return Answer(0.0, "does not overshoot") if found is None else Answer(found[1] - 1.0, step.note)
 
 
-def _gain(run: Run, channel: str, unit: str) -> Number:
+def _gain(run: Run, channel: str) -> Answer:
     step = step_response(run, channel)
-    return (
-        missing(unit, "needs a step of the steering wheel")
-        if step is None
-        else Number(step.steady / step.angle, unit, step.note)
-    )
+    return Answer(step.steady / step.angle, step.note)
+
+
+def _steps(run: Run) -> bool:
+    """Whether the steering wheel of a freely driving car makes a step."""
+    return drives(run) and kind(run) == "step_steer" and bool(np.ptp(run["steering_wheel_angle"]) > 0.0)
+
+
+STEPPED = Runs(_steps, "needs a step of the steering wheel")
+NUMBERS = (
+    Measure(yaw_rate_response_time, "s", STEPPED),
+    Measure(lateral_acceleration_response_time, "s", STEPPED),
+    Measure(roll_angle_response_time, "s", STEPPED),
+    Measure(yaw_rate_peak_response_time, "s", STEPPED),
+    Measure(yaw_rate_overshoot, "1", STEPPED),
+    Measure(lateral_acceleration_overshoot, "1", STEPPED),
+    Measure(roll_angle_overshoot, "1", STEPPED),
+    Measure(tb_factor, "rad s", STEPPED),
+    Measure(yaw_rate_gain, "1/s", STEPPED),
+    Measure(lateral_acceleration_gain, "m/s²/rad", STEPPED),
+    Measure(roll_angle_gain, "1", STEPPED),
+    Measure(side_slip_angle_steady, "rad", STEPPED),
+)

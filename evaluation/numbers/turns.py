@@ -1,18 +1,17 @@
-"""What the numbers of a car that drives freely share: which run it is, which way it turns, values over lateral
-acceleration."""
+"""What the numbers of a car that drives freely share: which way it turns, values over lateral acceleration."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from susp_mj.features import Course, features_in
 from susp_mj.run import Run
 
-from .number import Number
+from .number import Runs
+from .runs import drives, kind, parameter
 
 FIT = (1.0, 4.0)
 """Lateral accelerations [m/s²] between which gradients are fitted: tyres and springs are near linear there."""
@@ -24,33 +23,6 @@ AVERAGED: dict[str, float] = {"ramp_steer": 0.1, "steady_circle": 2.0}
 """Manoeuvre of which every instant is close to a steady turn -> length of the average that takes quick events out of it
 [s]."""
 SLOWLY_TIGHTENED = tuple(AVERAGED)
-RIG = "suspension_rig"
-
-
-def kind(run: Run) -> str:
-    """Name of the run's manoeuvre."""
-    return str(run.meta.get("manoeuvre", {}).get("kind", ""))
-
-
-def parameter(run: Run, name: str, default: Any = None) -> Any:
-    """A parameter of the run's manoeuvre."""
-    return run.meta.get("manoeuvre", {}).get(name, default)
-
-
-def fact(run: Run, name: str) -> float | None:
-    """A fact of the car, or None where the run does not have it."""
-    value = run.meta.get("facts", {}).get(name)
-    return None if value is None else float(value)
-
-
-def drives(run: Run) -> bool:
-    """Whether the car of this run drives freely; an oscillation model or a car on a rig does not."""
-    return "yaw_rate" in run and "speed" in run and kind(run) != RIG
-
-
-def missing(unit: str, note: str) -> Number:
-    """Number of a question that does not make sense for the run."""
-    return Number(None, unit, note, applies=False)
 
 
 def deviation(run: Run) -> np.ndarray | None:
@@ -131,10 +103,11 @@ class Tightening:
         return slope(self.acceleration[inside], values[inside])
 
 
-def tightening(run: Run) -> Tightening | None:
-    """The tightening turn of a run; None unless it is one of `SLOWLY_TIGHTENED`."""
-    if not drives(run) or kind(run) not in SLOWLY_TIGHTENED:
-        return None
+TIGHTENED = Runs(lambda run: drives(run) and kind(run) in SLOWLY_TIGHTENED, "needs a slowly tightened turn")
+
+
+def tightening(run: Run) -> Tightening:
+    """The tightening turn of a run that is `TIGHTENED`."""
     side, width = turn(run), max(round(AVERAGED[kind(run)] / run.step), 1)
     acceleration = side * averaged(run["lateral_acceleration"], width)[: followed(run)]
     return Tightening(side, width, acceleration[: int(np.argmax(acceleration)) + 1])

@@ -9,9 +9,10 @@ import numpy as np
 
 from susp_mj.run import Run
 
-from .number import Number
+from .number import Answer, Measure, Runs, no_question
 from .ride import CONTACT_LOST
-from .turns import drives, first, followed, inner, kind, lasting, missing
+from .runs import drives, kind
+from .turns import first, followed, inner, lasting
 
 TURNING = 1.0
 """Lateral acceleration [m/s²] from which on a wheel is an inner one."""
@@ -54,52 +55,44 @@ def _watched(run: Run) -> int:
     return len(run.time) if kind(run) == "ramp_steer" else followed(run)
 
 
-def wheel_lift_time(run: Run) -> Number:
+def wheel_lift_time(run: Run) -> Answer:
     """Time for which a wheel is lifted, the one that is lifted longest [s]; 0 if none lifts."""
-    if not _turns(run):
-        return missing("s", "does not turn")
     longest = max(lifts(run), key=lambda each: each.lasts, default=None)
-    return Number(0.0, "s", NONE_LIFTS) if longest is None else Number(longest.lasts, "s", longest.station)
+    return Answer(0.0, NONE_LIFTS) if longest is None else Answer(longest.lasts, longest.station)
 
 
-def wheel_lift_instant(run: Run) -> Number:
+def wheel_lift_instant(run: Run) -> Answer:
     """First instant at which a wheel lifts [s]; no value if none does."""
-    if not _turns(run):
-        return missing("s", "does not turn")
     found = lifts(run)
-    return Number(found[0].time, "s", found[0].station) if found else Number(None, "s", NONE_LIFTS)
+    return Answer(found[0].time, found[0].station) if found else Answer(None, NONE_LIFTS)
 
 
-def wheel_lift_acceleration(run: Run) -> Number:
+def wheel_lift_acceleration(run: Run) -> Answer:
     """Lateral acceleration at which the first wheel lifts [m/s²]; no value if none does."""
-    if not _turns(run):
-        return missing("m/s²", "does not turn")
     found = lifts(run)
-    return Number(found[0].acceleration, "m/s²", found[0].station) if found else Number(None, "m/s²", NONE_LIFTS)
+    return Answer(found[0].acceleration, found[0].station) if found else Answer(None, NONE_LIFTS)
 
 
-def inner_wheel_load_front(run: Run) -> Number:
+def inner_wheel_load_front(run: Run) -> Answer:
     """Smallest load of the inner front wheel in the turn [N]."""
     return _inner_load(run, 0)
 
 
-def inner_wheel_load_rear(run: Run) -> Number:
+def inner_wheel_load_rear(run: Run) -> Answer:
     """Smallest load of the inner rear wheel in the turn [N]."""
     return _inner_load(run, 1)
 
 
-def _inner_load(run: Run, order: int) -> Number:
+def _inner_load(run: Run, order: int) -> Answer:
     """Smallest load of an inner wheel while the car turns to the side of its largest lateral acceleration."""
-    if not _turns(run):
-        return missing("N", "does not turn")
     station = inner(run)[order]
     last = _watched(run)
     acceleration = np.abs(run["lateral_acceleration"][:last])
     loads = np.where(acceleration >= TURNING, run[f"{station}_wheel_load"][:last], np.inf)
     at = int(np.argmin(loads))
     if acceleration[at] < TURNING:
-        return missing("N", "does not follow its circle until it turns")
-    return Number(float(loads[at]), "N", f"{station} at {acceleration[at]:.1f} m/s²")
+        return no_question("does not follow its circle until it turns")
+    return Answer(float(loads[at]), f"{station} at {acceleration[at]:.1f} m/s²")
 
 
 def _turns(run: Run) -> bool:
@@ -107,3 +100,13 @@ def _turns(run: Run) -> bool:
     if not drives(run) or "fl_wheel_load" not in run:
         return False
     return bool(np.abs(run["lateral_acceleration"]).max() >= TURNING)
+
+
+TURNS = Runs(_turns, "does not turn")
+NUMBERS = (
+    Measure(wheel_lift_time, "s", TURNS),
+    Measure(wheel_lift_instant, "s", TURNS),
+    Measure(wheel_lift_acceleration, "m/s²", TURNS),
+    Measure(inner_wheel_load_front, "N", TURNS),
+    Measure(inner_wheel_load_rear, "N", TURNS),
+)

@@ -129,11 +129,10 @@ def _count(number: int, one: str, many: str = "") -> str:
 
 
 def _label(name: str) -> str:
-    """What a number means, from the first sentence of its function, without unit and formula."""
-    doc = (NUMBERS[name].__doc__ or "").strip() if name in NUMBERS else ""
-    first = re.split(r": ``|\n\s*\n|(?<=\S)\. |\.$|;", doc, maxsplit=1)[0]
+    """What a number means: the first sentence of its description, without unit and formula."""
+    first = re.split(r": ``|(?<=\S)\. |\.$|;", NUMBERS[name].description if name in NUMBERS else "", maxsplit=1)[0]
     text = re.sub(r"\s*\[[^\]]*\]", "", first).replace("`", "")
-    return " ".join(text.split()).rstrip(".") or name.replace("_", " ")
+    return text.strip().rstrip(".") or name.replace("_", " ")
 
 
 def _number_rows(comparison: Comparison, footnotes: dict[str, str]) -> list[dict[str, Any]]:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 from susp_mj.files import write_text
 
-from ..numbers.turns import RIG, SLOWLY_TIGHTENED, drives, kind
+from ..numbers.runs import drives, on_rig
+from ..numbers.turns import TIGHTENED
 from .channels import HANDLING
 from .characteristics import characteristic_plots
 from .ground import acceleration_plots, course_plots
@@ -60,13 +61,13 @@ def save_plots(comparison: Comparison, folder: str | Path, plots: Mapping[str, s
 def handling_plots(comparison: Comparison) -> dict[str, str]:
     """Plots of runs of a car that drives freely or stands on the kinematics rig, as SVG text by name; empty for other
     models."""
-    driven = [each for each in comparison.configurations if drives(each.run) or kind(each.run) == RIG]
+    driven = [each for each in comparison.configurations if drives(each.run) or on_rig(each.run)]
     if len(driven) < len(comparison.configurations) or not driven:
         return {}
-    if kind(driven[0].run) == RIG:
+    if on_rig(driven[0].run):
         return rig_plots(driven)
     return {
-        **(turn_plots(driven) if kind(driven[0].run) in SLOWLY_TIGHTENED else {}),
+        **(turn_plots(driven) if driven[0].run in TIGHTENED else {}),
         **course_plots(driven),
         **steering_plots(driven),
         **together_plots(driven),

@@ -11,8 +11,8 @@ from susp_mj.features import Circle, Cones, Course, Gust, Patch, features_in
 from susp_mj.run import Run
 
 from ..colours import INK, MUTED, PAPER
-from ..numbers.course import cones, corners
-from ..numbers.turns import fact, kind
+from ..numbers.course import corners, has_cones
+from ..numbers.runs import facts, kind
 from .figure import colour, draw_line, draw_svg, label_axes, make_panels, thinned_way
 
 if TYPE_CHECKING:
@@ -51,9 +51,7 @@ def _ground_figure(configurations: Sequence[Configuration]) -> Figure:
     _draw_features(panel, configurations[0].run)
     for order, each in enumerate(configurations):
         run = each.run
-        beside = (
-            corners(run).values() if cones(run) is not None else _front_wheels(run) if kind(run) == "split_mu" else ()
-        )
+        beside = corners(run).values() if has_cones(run) else _front_wheels(run) if kind(run) == "split_mu" else ()
         for x, y in beside:
             panel.plot(*thinned_way(x, y), color=colour(order), linewidth=0.6, alpha=0.55)
         draw_line(panel, order, *thinned_way(run["position_x"], run["position_y"]))
@@ -68,7 +66,7 @@ def _ground_figure(configurations: Sequence[Configuration]) -> Figure:
 
 def _front_wheels(run: Run) -> list[tuple[np.ndarray, np.ndarray]]:
     """Ways of both front wheels over the ground [m]."""
-    track, ahead, yaw = fact(run, "track_front"), fact(run, "cg_x"), run["yaw_angle"]
+    track, ahead, yaw = facts(run).get("track_front"), facts(run).get("cg_x"), run["yaw_angle"]
     if track is None or ahead is None:
         return []
     x, y = run["position_x"] - ahead * np.cos(yaw), run["position_y"] - ahead * np.sin(yaw)

@@ -13,7 +13,8 @@ from susp_mj.run import Run
 from ..colours import INK, MUTED
 from ..display import Shown, shown
 from ..numbers.ride import CONTACT_LOST, INPUTS
-from ..numbers.turns import drives, kind, stations_of
+from ..numbers.runs import drives, kind
+from ..numbers.turns import stations_of
 from .channels import HANDLING, quantity_label, stands_still, station_name, stations_with
 from .figure import colour, draw_line, draw_svg, label_axes, make_panels, spans, stop_lines, thinned, zero_line
 

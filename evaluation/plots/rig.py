@@ -10,7 +10,8 @@ import numpy as np
 from susp_mj.run import Run
 
 from ..colours import MUTED
-from ..numbers.turns import fact, stations_of
+from ..numbers.runs import facts, parameter
+from ..numbers.turns import stations_of
 from .figure import draw_line, draw_svg, label_axes, make_panels, thinned_way
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def _mean_over_body(x: str, y: str) -> _Sampled:
 
 def _roll_moment(run: Run, axle: str) -> tuple[np.ndarray, np.ndarray]:
     left, right = (run[f"{station}_wheel_load"] for station in stations_of(axle))
-    return np.degrees(run["roll_angle"]), (right - left) * (fact(run, f"track_{axle}") or 1.0) / 2 * 1e-3
+    return np.degrees(run["roll_angle"]), (right - left) * facts(run).get(f"track_{axle}", 1.0) / 2 * 1e-3
 
 
 RIG_CURVES: dict[str, tuple[tuple[str, str, _Sampled], ...]] = {
@@ -92,7 +93,7 @@ def rig_plots(configurations: Sequence[Configuration]) -> dict[str, str]:
 
 def _rig_panels(configurations: Sequence[Configuration]) -> list[tuple[str, tuple[str, str, _Sampled]]]:
     """Axle and curve of every panel: front and rear side by side; the rear axle does not steer."""
-    test = str(configurations[0].run.meta["manoeuvre"].get("test", ""))
+    test = str(parameter(configurations[0].run, "test", ""))
     axles = ("front",) if test == "steer" else ("front", "rear")
     return [(axle, curve) for curve in RIG_CURVES.get(test, ()) for axle in axles]
 

@@ -10,7 +10,8 @@ import numpy as np
 from susp_mj.names import CORNERS
 
 from ..colours import INK, LIFTED, MUTED
-from ..numbers.turns import fact, inner, tightening
+from ..numbers.runs import facts, known
+from ..numbers.turns import inner, tightening
 from ..numbers.wheel_lift import lifts
 from .channels import STATIONS
 from .figure import colour, draw_line, draw_svg, label_axes, make_panels, stop_lines
@@ -43,8 +44,6 @@ def _lift_figure(configurations: Sequence[Configuration]) -> Figure:
     )
     for order, each in enumerate(configurations):
         run, turning = each.run, tightening(each.run)
-        if turning is None:
-            continue
         angle = turning.side * np.degrees(run["roll_angle"] - run["roll_angle"][0])
         draw_line(roll, order, *_over(turning.acceleration, turning.part(angle)))
         for panel, station in zip(loads, inner(run), strict=True):
@@ -69,8 +68,9 @@ def _mark_lifts(configurations: Sequence[Configuration], panels: Sequence[Axes])
         height, right = 0, panel.dataLim.x1
         for order, each in enumerate(configurations):
             station, turning = inner(each.run)[row], tightening(each.run)
-            last = 0 if turning is None else len(turning.acceleration)
-            for lift in (lift for lift in lifts(each.run) if lift.station == station and lift.at < last):
+            for lift in lifts(each.run):
+                if lift.station != station or lift.at >= len(turning.acceleration):
+                    continue
                 outside = lift.acceleration > 0.8 * right
                 panel.plot(
                     [lift.acceleration],
@@ -104,13 +104,12 @@ def _self_steering_figure(configurations: Sequence[Configuration]) -> Figure:
     highest = 0.0
     for order, each in enumerate(configurations):
         run, turning = each.run, tightening(each.run)
-        if turning is None:
-            continue
         angle = turning.side * np.degrees(run["steering_wheel_angle"] - run["steering_wheel_angle"][0])
         highest = max(highest, float(turning.part(angle).max()))
         draw_line(steering, order, *_over(turning.acceleration, turning.part(angle)))
-        if (wheelbase := fact(run, "wheelbase")) is not None and (ratio := fact(run, "steering_ratio")) is not None:
+        if run in known("wheelbase", "steering_ratio"):
             speed = np.maximum(turning.part(run["speed"]), 0.1)
+            wheelbase, ratio = facts(run)["wheelbase"], facts(run)["steering_ratio"]
             geometry = np.degrees(ratio * wheelbase * turning.acceleration / speed**2)
             steering.plot(*_over(turning.acceleration, geometry), color=colour(order), linestyle=":", linewidth=1.2)
         behind = turning.side * np.degrees(run["rear_side_slip_angle"])
@@ -131,9 +130,8 @@ def _travel_figure(configurations: Sequence[Configuration]) -> Figure:
     for panel, station in zip(panels, CORNERS, strict=True):
         for order, each in enumerate(configurations):
             turning = tightening(each.run)
-            if turning is not None:
-                travel = turning.part(each.run[f"{station}_suspension_deflection"]) * 1e3
-                draw_line(panel, order, *_over(turning.acceleration, travel))
+            travel = turning.part(each.run[f"{station}_suspension_deflection"]) * 1e3
+            draw_line(panel, order, *_over(turning.acceleration, travel))
         stops = {tuple(each.run.meta["travel"][station]) for each in configurations}
         for order, (rebound, compression) in enumerate(sorted(stops)):
             stop_lines(panel, rebound * 1e3, compression * 1e3, horizontal=True, named=order == 0)

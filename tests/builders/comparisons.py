@@ -8,7 +8,7 @@ import numpy as np
 
 from evaluation.characteristics import characteristic
 from evaluation.compare import Claim, Comparison, Configuration
-from evaluation.numbers import FREQUENCY, RIDE, Criterion, evaluate
+from evaluation.numbers import Criterion, evaluate, frequency, ride
 from manoeuvres import Bump
 from susp_mj import simulate
 from susp_mj.manoeuvre import Manoeuvre
@@ -30,7 +30,7 @@ def compare(
 ) -> Comparison:
     """The three sets of chapter 3 under one manoeuvre."""
     manoeuvre = manoeuvre or Bump(duration=1.5)
-    numbers = [each.__name__ for each in (FREQUENCY if manoeuvre.kind == "vertical_sweep" else RIDE)]
+    numbers = [each.name for each in (frequency if manoeuvre.kind == "vertical_sweep" else ride).NUMBERS]
     configurations = []
     for key, name in names.items():
         car = load_vehicle("chapter3", key)

@@ -6,15 +6,8 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from evaluation.numbers.comfort import (
-    WEIGHTINGS,
-    comfort_word,
-    maximum_transient_vibration,
-    vibration_dose_value,
-    weighted,
-    weighted_acceleration,
-    weighted_seat_acceleration,
-)
+from evaluation.numbers import NUMBERS
+from evaluation.numbers.comfort import WEIGHTINGS, comfort_word, weighted
 from susp_mj import InputError, Run
 from susp_mj.run import described
 
@@ -155,14 +148,18 @@ def test_a_constant_does_not_count_for_long():
 
 @pytest.mark.parametrize("step", [1 / 500, 1 / 1000, 1 / 3000])
 def test_sampling_does_not_matter_where_it_suffices(step):
-    number = weighted_acceleration(make(20.0, step, body_acceleration=sine(1.0, 40.0)))
+    number = NUMBERS["weighted_acceleration"](make(20.0, step, body_acceleration=sine(1.0, 40.0)))
     assert number.value == pytest.approx(gain("Wk", 40.0) / np.sqrt(2), rel=2e-3)
 
 
 def test_too_coarse_sampling_is_refused():
     with pytest.raises(InputError, match="400 samples a second are too few"):
         weighted(np.zeros(100), 1 / 400, WEIGHTINGS["Wk"])
-    for number in (weighted_acceleration, vibration_dose_value, maximum_transient_vibration):
+    for number in (
+        NUMBERS["weighted_acceleration"],
+        NUMBERS["vibration_dose_value"],
+        NUMBERS["maximum_transient_vibration"],
+    ):
         found = number(make(10.0, 1 / 400, body_acceleration=sine(1.0, 4.0)))
         assert found.value is None and found.applies and "needs 500" in found.note
 
@@ -172,14 +169,14 @@ def test_too_coarse_sampling_is_refused():
 
 @pytest.mark.parametrize("frequency", [1.0, 5.0, 20.0])
 def test_weighted_acceleration_of_a_sine(frequency):
-    number = weighted_acceleration(make(60.0, body_acceleration=sine(1.4, frequency)))
+    number = NUMBERS["weighted_acceleration"](make(60.0, body_acceleration=sine(1.4, frequency)))
     assert number.value == pytest.approx(1.4 / np.sqrt(2) * gain("Wk", frequency), rel=5e-3)
     assert number.unit == "m/s²" and number.note == comfort_word(number.value)
 
 
 def test_vibration_dose_of_a_sine():
     """The mean of sin⁴ is 3/8."""
-    number = vibration_dose_value(make(60.0, body_acceleration=sine(2.0, 5.0)))
+    number = NUMBERS["vibration_dose_value"](make(60.0, body_acceleration=sine(2.0, 5.0)))
     assert number.value == pytest.approx((3 / 8 * 60) ** 0.25 * 2.0 * gain("Wk", 5.0), rel=2e-3)
 
 
@@ -187,7 +184,11 @@ def test_numbers_scale_and_have_no_sign():
     run, other = (
         make(body_acceleration=lambda t, f=f: f * np.exp(-((t - 5) ** 2)) * np.sin(30 * t)) for f in (1.0, -3.0)
     )
-    for number in (weighted_acceleration, vibration_dose_value, maximum_transient_vibration):
+    for number in (
+        NUMBERS["weighted_acceleration"],
+        NUMBERS["vibration_dose_value"],
+        NUMBERS["maximum_transient_vibration"],
+    ):
         assert number(other).value == pytest.approx(3 * number(run).value, rel=1e-12)
 
 
@@ -195,7 +196,7 @@ def test_transient_vibration_finds_the_worst_second():
     """A sine that lasts from 6 s to 9 s: the running rms is that of the sine, the rms over 20 s is smaller by
     sqrt(20/3)."""
     run = make(20.0, body_acceleration=lambda t: sine(2.0, 8.0)(t) * ((t >= 6) & (t < 9)))
-    number, mean = maximum_transient_vibration(run), weighted_acceleration(run)
+    number, mean = NUMBERS["maximum_transient_vibration"](run), NUMBERS["weighted_acceleration"](run)
     assert number.value == pytest.approx(2 / np.sqrt(2) * gain("Wk", 8.0), rel=0.01)
     assert mean.value == pytest.approx(number.value * np.sqrt(3 / 20), rel=0.02)
     assert 7.0 <= float(number.note.split()[4]) <= 9.5
@@ -203,30 +204,36 @@ def test_transient_vibration_finds_the_worst_second():
 
 
 def test_transient_vibration_of_a_steady_sine_is_its_rms():
-    number = maximum_transient_vibration(make(30.0, body_acceleration=sine(1.0, 4.0)))
+    number = NUMBERS["maximum_transient_vibration"](make(30.0, body_acceleration=sine(1.0, 4.0)))
     assert number.value == pytest.approx(gain("Wk", 4.0) / np.sqrt(2), rel=0.01)
     assert "shocks" not in number.note
-    assert maximum_transient_vibration(make(0.9, body_acceleration=sine(1.0, 4.0))).value is None
+    assert NUMBERS["maximum_transient_vibration"](make(0.9, body_acceleration=sine(1.0, 4.0))).value is None
 
 
 def test_transient_vibration_of_a_step_that_does_not_divide_a_second():
     values = [
-        maximum_transient_vibration(make(5.0, step, body_acceleration=sine(1.0, 6.0))).value for step in (1e-3, 0.7e-3)
+        NUMBERS["maximum_transient_vibration"](make(5.0, step, body_acceleration=sine(1.0, 6.0))).value
+        for step in (1e-3, 0.7e-3)
     ]
     assert values[0] == pytest.approx(values[1], rel=2e-3)
 
 
 def test_the_seat_has_its_own_number():
     run = make(body_acceleration=sine(1.0, 5.0), seat_acceleration=sine(2.0, 5.0))
-    assert weighted_seat_acceleration(run).value == pytest.approx(2 * weighted_acceleration(run).value, rel=1e-12)
-    found = weighted_seat_acceleration(make(body_acceleration=sine(1.0, 5.0)))
+    assert NUMBERS["weighted_seat_acceleration"](run).value == pytest.approx(
+        2 * NUMBERS["weighted_acceleration"](run).value, rel=1e-12
+    )
+    found = NUMBERS["weighted_seat_acceleration"](make(body_acceleration=sine(1.0, 5.0)))
     assert found.value is None and not found.applies and "seat_acceleration" in found.note
 
 
 def test_a_car_at_rest_is_comfortable():
     run = make(body_acceleration=np.zeros_like)
-    assert weighted_acceleration(run).value == 0.0 and weighted_acceleration(run).note == "not uncomfortable"
-    assert vibration_dose_value(run).value == maximum_transient_vibration(run).value == 0.0
+    assert (
+        NUMBERS["weighted_acceleration"](run).value == 0.0
+        and NUMBERS["weighted_acceleration"](run).note == "not uncomfortable"
+    )
+    assert NUMBERS["vibration_dose_value"](run).value == NUMBERS["maximum_transient_vibration"](run).value == 0.0
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from evaluation.numbers import NUMBERS, Criterion, evaluate
+from evaluation.numbers import NUMBERS, Answer, Criterion, Measure, Number, evaluate, recorded, register
 from evaluation.numbers.frequency import amplification
 from manoeuvres import VerticalSweep
 from susp_mj import InputError, Run
@@ -329,7 +329,32 @@ def test_a_run_without_the_channel_is_an_answer_or_an_error_in_words():
     assert not crashed, crashed
 
 
+def test_a_number_of_one_s_own_is_registered_once():
+    def loudest(run):
+        """Largest speed of anything [m/s]."""
+        return Answer(3.0, "somewhere")
+
+    measure = Measure(loudest, "m/s", recorded("body_acceleration"))
+    register(measure)
+    try:
+        assert evaluate(make(body_acceleration=0.0), ["loudest"]) == {"loudest": Number(3.0, "m/s", "somewhere")}
+        without = NUMBERS["loudest"](make(wheel_load=0.0))
+        assert without == Number(None, "m/s", "the run has no body_acceleration", applies=False)
+        with pytest.raises(InputError, match="'loudest' is taken"):
+            register(measure)
+    finally:
+        del NUMBERS["loudest"]
+
+
+def test_runs_of_two_kinds():
+    lifted, loaded = recorded("body_displacement"), recorded("wheel_load")
+    run = make(body_displacement=0.0)
+    assert run in lifted and run not in loaded and run not in lifted & loaded
+    assert make(body_displacement=0.0, fl__wheel_load=1.0) in loaded & lifted
+    assert (loaded & lifted).refuse(make(body_acceleration=0.0)) == "the run has no wheel_load"
+
+
 @pytest.mark.parametrize("name", NUMBERS)
 def test_every_number_is_documented(name):
-    assert NUMBERS[name].__name__ == name
-    assert NUMBERS[name].__doc__
+    assert NUMBERS[name].name == name
+    assert NUMBERS[name].description
