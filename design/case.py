@@ -10,12 +10,12 @@ from pydantic import AfterValidator, Field, model_validator
 
 from evaluation.animation.cameras import CAMERAS
 from evaluation.animation.style import LAYOUTS, QUALITIES
-from evaluation.numbers import NUMBERS
+from evaluation.numbers import NUMBERS, Criterion
 from manoeuvres import MANOEUVRES, find_manoeuvre
 from susp_mj.description import Description, one_of, validate, wrong
 from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
-from susp_mj.units import Quantity
+from susp_mj.units import Quantity, to_si
 from vehicles.mjcf import MODELS
 from vehicles.reading import read_toml
 from vehicles.vehicle import DESIGN_LOAD
@@ -28,6 +28,23 @@ class Band(Description):
 
     min: float | str | None = None
     max: float | str | None = None
+
+    def criterion(self, unit: str, key: str) -> Criterion:
+        """The band in the SI `unit` of its number.
+
+        Raises:
+            PydanticCustomError: a bound in another unit, or bounds the wrong way round, naming what stands at `key`.
+        """
+        bounds = []
+        for name, value in (("min", self.min), ("max", self.max)):
+            try:
+                bounds.append(None if value is None else to_si(value, "" if unit == "1" else unit))
+            except ValueError as error:
+                raise wrong(str(error), f"{key}.{name}") from None
+        low, high = bounds
+        if low is not None and high is not None and low > high:
+            raise wrong(f"min {low:g} lies above max {high:g}", key)
+        return Criterion(low, high)
 
 
 def _printable(text: str) -> str:
@@ -112,6 +129,7 @@ class Case(Description):
             for name in names:
                 if name not in NUMBERS:
                     raise wrong(f"'{name}' unknown; {choices(NUMBERS, name)}", key)
+        self.bands()
         labels = [each.name for _, each in self.settings]
         for i, label in enumerate(labels):
             taken = {file_name(other).casefold(): other for other in labels[:i]}.get(file_name(label).casefold())
@@ -119,6 +137,10 @@ class Case(Description):
                 also = "" if taken == label else f" to a file system: '{taken}' is too much like it"
                 raise wrong(f"'{label}' names two configurations{also}", "configuration")
         return self
+
+    def bands(self) -> dict[str, Criterion]:
+        """The criteria by number, in SI units."""
+        return {name: band.criterion(NUMBERS[name].unit, f"criteria.{name}") for name, band in self.criteria.items()}
 
     @property
     def settings(self) -> list[tuple[int, Setting]]:

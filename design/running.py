@@ -11,7 +11,7 @@ import numpy as np
 
 from evaluation.characteristics import characteristic
 from evaluation.compare import Comparison, Configuration, Failure, Outcome
-from evaluation.numbers import NUMBERS, Criterion, evaluate
+from evaluation.numbers import NUMBERS, evaluate
 from evaluation.plots.sweeps import SWEEP_QUANTITIES
 from manoeuvres import VerticalSweep
 from susp_mj.batch import Progress, side_by_side
@@ -24,7 +24,6 @@ from susp_mj.plant import Plant
 from susp_mj.recording import Diverged
 from susp_mj.run import Run
 from susp_mj.simulation import simulate
-from susp_mj.units import to_si
 from vehicles.mjcf import HANDLING, build
 from vehicles.reading import load_vehicle
 from vehicles.vehicle import Vehicle
@@ -112,7 +111,7 @@ def run_case(
         progress=lambda place, done: progress(f"simulate {jobs[place].setting.name}", done),
     )
     outcomes = _shown(outcomes, {*case.numbers, *case.criteria})
-    return Comparison(case.title, case.description, outcomes, _criteria(case, outcomes, path.name))
+    return Comparison(case.title, case.description, outcomes, case.bands())
 
 
 def jobs_of(case: Case, path: Path) -> list[Job]:
@@ -241,21 +240,3 @@ def exact_transfer(
             ]
             result[channel] = (frequency, np.array(ratios))
     return result
-
-
-def _criteria(case: Case, outcomes: Sequence[Outcome], source: str) -> dict[str, Criterion]:
-    criteria = {}
-    runs = [each.run for each in outcomes if isinstance(each, Configuration)]
-    for name, band in case.criteria.items() if runs else ():
-        unit = NUMBERS[name](runs[0]).unit
-        bounds: list[float | None] = []
-        for key in ("min", "max"):
-            value = getattr(band, key)
-            try:
-                bounds.append(None if value is None else to_si(value, "" if unit == "1" else unit))
-            except ValueError as error:
-                raise InputError(str(error), key=f"criteria.{name}.{key}", source=source) from None
-        if bounds[0] is not None and bounds[1] is not None and bounds[0] > bounds[1]:
-            raise InputError(f"min {bounds[0]:g} lies above max {bounds[1]:g}", key=f"criteria.{name}", source=source)
-        criteria[name] = Criterion(bounds[0], bounds[1])
-    return criteria

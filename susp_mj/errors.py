@@ -38,10 +38,22 @@ class CallbackError(SuspMjError):
     """The compiled callbacks do not fit this MuJoCo, or another program's callbacks are in their place."""
 
 
+FEW, NEAREST = 12, 8
+"""An error lists so many options; of a longer list the nearest ones."""
+
+
 def choices(options: Iterable[object], wrong: object = None) -> str:
-    """List the options for an error text, and the nearest one first: ``did you mean 'damper'? choose damper,
-    spring``."""
+    """List the options for an error text, the nearest one first; of a long list only those that are near.
+
+    >>> choices(["spring", "damper"], "dampr")
+    "did you mean 'damper'? choose spring, damper"
+    >>> choices(range(100), 42)
+    "did you mean '42'? choose 42, 4, 2, 94, 92, 84, 82, 74, … (8 of 100)"
+    """
     names = [str(option) for option in options]
     near = difflib.get_close_matches(str(wrong), names, n=1) if wrong is not None else []
     hint = f"did you mean '{near[0]}'? " if near else ""
-    return f"{hint}choose {', '.join(names)}"
+    if len(names) <= FEW:
+        return f"{hint}choose {', '.join(names)}"
+    listed = names[:NEAREST] if wrong is None else difflib.get_close_matches(str(wrong), names, n=NEAREST, cutoff=0.0)
+    return f"{hint}choose {', '.join(listed)}, … ({len(listed)} of {len(names)})"

@@ -166,6 +166,32 @@ def test_bad_input_is_one_line_that_names_place_and_choices(tmp_path, old, new, 
     assert not out.exists()
 
 
+@pytest.mark.parametrize(
+    ("criterion", "expected"),
+    [
+        ('body_aceleration_max = { max = "8 m/s²" }', ["criteria: 'body_aceleration_max' unknown", "did you mean"]),
+        ('body_acceleration_max = { max = "8 mm" }', ["criteria.body_acceleration_max.max: '8 mm'", "m/s²"]),
+        ('stop_hits = { min = "2 mm" }', ["criteria.stop_hits.min: '2 mm'", "none"]),
+        ("overshoot = { min = 0.4, max = 0.3 }", ["criteria.overshoot: min 0.4 lies above max 0.3"]),
+    ],
+)
+def test_criteria_are_checked_when_the_case_is_read(tmp_path, criterion, expected):
+    path = write(tmp_path, CASE.split("[criteria]", maxsplit=1)[0] + f"[criteria]\n{criterion}\n")
+    with pytest.raises(InputError) as caught:
+        load_case(path)
+    text = str(caught.value)
+    assert "\n" not in text and len(text) < 500
+    for part in ("mine.toml: ", *expected):
+        assert part in text
+
+
+def test_criteria_in_engineers_units(tmp_path):
+    text = CASE.replace('{ max = "5 m/s²" }', '{ max = "5 m/s²" }\nroll_angle_max = { min = "-1 deg", max = "3 deg" }')
+    bands = load_case(write(tmp_path, text))[0].bands()
+    assert bands["body_acceleration_max"].maximum == 5.0 and bands["body_acceleration_max"].minimum is None
+    assert bands["roll_angle_max"].maximum == pytest.approx(np.radians(3.0))
+
+
 def test_missing_case_lists_the_shipped_ones():
     with pytest.raises(InputError, match=r"no case 'chapter_3'; did you mean 'chapter3'"):
         load_case("chapter_3")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -56,6 +57,24 @@ def test_run_prints_a_table_without_colour_codes_when_piped(tmp_path):
 
 def test_strict_turns_failed_criteria_into_exit_code_1(tmp_path):
     assert call("run", "chapter3", "--strict", "--out", str(tmp_path / "out")).returncode == 1
+
+
+def test_a_wrong_criterion_is_refused_at_once(tmp_path):
+    """Less than 1.5 s of computing, so before any simulation."""
+    case = tmp_path / "wrong.toml"
+    case.write_text(
+        'title = "wrong"\nmodel = "handling"\nmanoeuvre = { kind = "zuziehen" }\n'
+        '[[configuration]]\nname = "car"\nvehicle = "s_class"\n'
+        '[criteria]\nlateral_acceleration_max = { max = "8 mm" }\n'
+    )
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    result = call("run", str(case), "--out", str(tmp_path / "out"))
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    assert result.returncode == 2
+    (line,) = result.stderr.splitlines()
+    assert "wrong.toml: criteria.lateral_acceleration_max.max: '8 mm'" in line and "m/s²" in line
+    assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < 1.5
+    assert not (tmp_path / "out").exists()
 
 
 def test_strict_passes_when_criteria_are_met(tmp_path):
