@@ -13,7 +13,6 @@ from pathlib import Path
 from evaluation.compare import Claim, Comparison
 from susp_mj.errors import InputError, SuspMjError
 from susp_mj.recording import versions
-from vehicles.mjcf import HANDLING
 
 from .case import Case, file_name
 from .running import Report, run_case
@@ -62,11 +61,12 @@ def carry_out(
 
 def _make_video(case: Case, comparison: Comparison, stage: Path, progress: Report) -> str:
     from evaluation.animation.clip import Clip
+    from evaluation.animation.kinds import kind_of
     from evaluation.animation.render import render_video
 
-    film = case.film.model_dump()
-    film["quality"] = film["quality"] or ("draft" if case.model == HANDLING else "fine")
     clips = [Clip(each.name, each.run) for each in comparison.configurations]
+    film = case.film.model_dump()
+    film["quality"] = film["quality"] or kind_of(clips).quality
     return render_video(clips, stage / "video.mp4", **film, progress=lambda done: progress("render video", done)).name
 
 

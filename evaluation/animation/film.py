@@ -11,10 +11,11 @@ import numpy as np
 from susp_mj.run import Run
 
 from ..colours import COLOURS
-from .clip import Clip, kind_of
+from .clip import Clip
 from .handling.hud import HandlingHud
 from .handling.scene import HandlingScene
 from .hud import Hud
+from .kinds import HANDLING, OSCILLATION, QUARTER, Kind, kind_of
 from .oscillation.hud import OscillationHud
 from .oscillation.scene import OscillationScene
 from .quarter.hud import QuarterHud
@@ -24,10 +25,10 @@ from .style import Shot, Style
 from .video import Encoder
 from .window import Window, window_of
 
-KINDS: dict[str, tuple[Callable[[Shot, Window], Scene], type[Hud]]] = {
-    "quarter": (QuarterScene, QuarterHud),
-    "oscillation": (OscillationScene, OscillationHud),
-    "handling": (HandlingScene, HandlingHud),
+KINDS: dict[Kind, tuple[Callable[[Shot, Window], Scene], type[Hud]]] = {
+    QUARTER: (QuarterScene, QuarterHud),
+    OSCILLATION: (OscillationScene, OscillationHud),
+    HANDLING: (HandlingScene, HandlingHud),
 }
 """Scene, and texts around it, of each kind of run that `kind_of` tells apart."""
 

@@ -14,7 +14,8 @@ from susp_mj.errors import InputError, SuspMjError
 from susp_mj.files import whole
 
 from ..colours import COLOURS
-from .clip import Clip, kind_of
+from .clip import Clip
+from .kinds import kind_of
 from .style import Style
 from .video import NO_FFMPEG, NO_GL, ffmpeg_program, gl_backend, gl_environment
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from susp_mj.errors import InputError, choices
 
 from .cameras import CAMERAS
-from .clip import Clip, kind_of
+from .clip import Clip
+from .kinds import kind_of
 
 LAYOUTS = {
     "side_by_side": "a scene for each configuration",
@@ -65,7 +66,7 @@ class Style:
         Raises:
             InputError: something that only runs of a car that drives freely can have.
         """
-        free = kind_of(clips) == "handling"
+        free = kind_of(clips).free
         if self.camera is not None and not free:
             raise InputError(
                 f"'{self.camera}' is for runs of model handling; other cars are drawn from one place",

@@ -14,6 +14,7 @@ from susp_mj.run import Run
 
 from ..numbers.ride import CONTACT_LOST
 from .clip import features_of
+from .kinds import drives_freely
 
 BEFORE, AFTER, AFTER_INPUT, LONGEST = 0.1, 1.3, 1.0, 6.5
 """Stretch of a run that is shown [s]: before the input first moves, after that, at least after it rests, and altogether
@@ -61,7 +62,7 @@ def window_of(runs: Sequence[Run], fps: int, playback: float | None) -> Window:
     others.
     """
     bump = any(isinstance(feature, Bump) for run in runs for feature in features_of(run))
-    if not bump and all("position_x" in run for run in runs):
+    if not bump and all(drives_freely(run) for run in runs):
         start, end = min(float(run.time[0]) for run in runs), max(float(run.time[-1]) for run in runs)
         if playback is None:
             playback = next(

@@ -37,7 +37,7 @@ class Chassis:
 
     @classmethod
     def of(cls, run: Run) -> Chassis:
-        """From the facts of a run, which `clip.kind_of` has checked."""
+        """From the facts of a run, which `kinds.kind_of` has checked."""
         facts = run.meta["facts"]
         centres = {}
         for station in stations_of(run):

@@ -9,8 +9,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from evaluation.animation import render, video
-from evaluation.animation.clip import Clip, kind_of, tyre_deflection
+from evaluation.animation import kinds, render, video
+from evaluation.animation.clip import Clip, tyre_deflection
 from evaluation.animation.oscillation.hud import liveliest_angle
 from evaluation.animation.oscillation.pose import WHEEL_RADIUS as CAR_WHEEL_RADIUS
 from evaluation.animation.oscillation.pose import Layout, OscillationPose, road_speed
@@ -366,7 +366,7 @@ def test_every_wheel_stands_on_its_own_track(kind):
 )
 def test_every_model_with_several_wheels_can_be_shown(model):
     run = simulate(build(load_vehicle("s_class", "configuration_4"), model), Bump(duration=0.6))
-    assert kind_of([Clip(model, run)]) == "oscillation"
+    assert kinds.kind_of([Clip(model, run)]) is kinds.OSCILLATION
     layout, drawn, data = drawn_car(run)
     assert road_speed(run, layout) == pytest.approx(50 / 3.6)
     for time in (0.0, 0.3, 0.5):
@@ -443,7 +443,7 @@ def test_video_of_cars_shows_which_wheel_lifts_and_when(drawing, tmp_path, speed
 
 
 def test_runs_that_cannot_be_shown_together_or_at_all(clips, tmp_path):
-    with pytest.raises(InputError, match="'linear' has one wheel and 'car' several"):
+    with pytest.raises(InputError, match="'linear' has one wheel and 'car' has several wheels"):
         render_video([clips[0], Clip("car", car_run())], tmp_path / "mixed.mp4")
     run = car_run()
     poor = Run(

@@ -11,12 +11,13 @@ import pytest
 
 from evaluation.animation import video
 from evaluation.animation.cameras import CAMERAS
-from evaluation.animation.clip import Clip, features_of, kind_of
+from evaluation.animation.clip import Clip, features_of
 from evaluation.animation.handling.camera import Follow, camera_for, inside
 from evaluation.animation.handling.hud import HandlingHud
 from evaluation.animation.handling.pose import Motion
 from evaluation.animation.handling.shapes import add_car, car_materials
 from evaluation.animation.handling.world import proving_ground, surroundings
+from evaluation.animation.kinds import HANDLING, kind_of
 from evaluation.animation.picture import Picture, materials
 from evaluation.animation.render import can_render, render_video
 from evaluation.animation.scene import put
@@ -235,7 +236,7 @@ def test_wheels_roll_on_the_road_and_the_lifted_one_is_off_it():
 
 def test_real_car_stands_on_its_road_throughout_a_lane_change():
     run = simulate(build(load_vehicle("s_class", "configuration_4"), "handling"), LaneChange(duration=4.0))
-    assert kind_of([Clip("real", run)]) == "handling" and camera_for(run) is CAMERAS["chase"]
+    assert kind_of([Clip("real", run)]) is HANDLING and camera_for(run) is CAMERAS["chase"]
     motion = Motion(run)
     for time in (0.0, 1.0, 2.5, 3.5):
         for station, wheel in motion.pose(time).wheels.items():
@@ -589,7 +590,7 @@ def test_other_cars_have_one_camera_and_no_ghosts(tmp_path, options, text):
     quarter = Run(time, {name: described(name, np.sin(time)) for name in names}, {"model": "quarter_1dof"})
     with pytest.raises(InputError, match=text):
         render_video([Clip("quarter", quarter)], tmp_path / "drive.mp4", **options)
-    with pytest.raises(InputError, match="'free' drives freely and 'quarter' does not; show them in two videos"):
+    with pytest.raises(InputError, match="'quarter' has one wheel and 'free' drives freely; show them in two videos"):
         render_video([Clip("quarter", quarter), Clip("free", driven(duration=0.2))], tmp_path / "drive.mp4")
 
 
