@@ -350,8 +350,9 @@ def test_camera_stands_where_it_says_and_follows(name, inner):
         )
         yaw = float(np.interp(time, run.time, run["yaw_angle"]))
         from_car = rotation("z", -yaw)[:2, :2] @ (eye - Motion(run).pose(time).place)
-        bearing = np.degrees(np.arctan2(from_car[1] * inner, from_car[0] - CAMERAS[name].ahead))
-        assert bearing == pytest.approx(CAMERAS[name].bearing, abs=8), "from the car, to the inside of the bend"
+        bearing, reach = np.radians(CAMERAS[name].bearing), camera.distance * np.cos(np.radians(CAMERAS[name].drop))
+        place = [CAMERAS[name].ahead + reach * np.cos(bearing), reach * np.sin(bearing) * inner]
+        assert from_car == pytest.approx(place, abs=1.5), "bearings are from ahead, to the inside of the bend"
         if name == "chase":
             assert from_car[0] < -5
         if name in ("front", "side"):
