@@ -86,7 +86,7 @@ def _sampled(
         slips = np.broadcast_arrays(kappa, np.tan(alpha))
         rows = []
         for k, t in zip(*(each.ravel() for each in slips), strict=True):
-            law.contact(float(k), float(t), 0.0, load, ROLLING, ROLLING * float(t), 1.0, parameters, out)
+            law.function(float(k), float(t), 0.0, load, ROLLING, ROLLING * float(t), 1.0, parameters, out)
             rows.append((out[0], out[1], out[4]))
         return np.array(rows).reshape(*slips[0].shape, 3)
 

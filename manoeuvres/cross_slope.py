@@ -9,7 +9,7 @@ import numpy as np
 from manoeuvres.driving import Driving
 from manoeuvres.surface import LONGEST
 from susp_mj import features
-from susp_mj.driver import Driver, Path
+from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.roads import Road, cosine_ramp
 from susp_mj.units import PositiveSpeed, PositiveTime, Quantity
 
@@ -54,7 +54,7 @@ class CrossSlope(Driving):
         )
 
     def driver(self) -> Driver | None:
-        return Driver(Path()) if self.steered else None
+        return PreviewDriver(Path()) if self.steered else None
 
 
 if __name__ == "__main__":

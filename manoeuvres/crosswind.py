@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from manoeuvres.driving import Driving, fallen, risen
 from susp_mj.description import wrong
-from susp_mj.driver import Driver, Path
+from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.features import Gust
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
@@ -63,7 +63,7 @@ class Crosswind(Driving):
         return Road(features=(Gust((begin, begin + self.length + self.flank), self.wind),))
 
     def driver(self) -> Driver | None:
-        return Driver(Path()) if self.steered else None
+        return PreviewDriver(Path()) if self.steered else None
 
 
 if __name__ == "__main__":

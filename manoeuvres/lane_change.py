@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from manoeuvres.driving import Driving
-from susp_mj.driver import Driver, Path
+from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.features import Cones, Course, Lane
 from susp_mj.roads import Road
 from susp_mj.units import NonNegativeLength, PositiveLength, PositiveSpeed, PositiveTime, Quantity
@@ -39,7 +39,7 @@ class LaneChange(Driving):
         front_overhang, rear_overhang: of the body beyond its axles [m]; with the width, they tell where its corners
             are.
         cut: how far inside the lanes the path leaves and reaches their middle [m].
-        preview_time, lag, understeer: of the driver, see `susp_mj.driver.Driver`.
+        preview_time, lag, understeer: of the driver, see `susp_mj.elements.driver.PreviewDriver`.
         speed: [m/s].
         start: when the front axle enters the first lane [s].
 
@@ -85,7 +85,7 @@ class LaneChange(Driving):
 
     def driver(self) -> Driver:
         x = np.arange(0.0, self.lanes[2].x[1] + 60.0, _SPACING)
-        return Driver(Path(x, self.path(x)), self.preview_time, self.lag, self.understeer)
+        return PreviewDriver(Path(x, self.path(x)), self.preview_time, self.lag, self.understeer)
 
 
 def _minimum_jerk(progress: np.ndarray) -> np.ndarray:

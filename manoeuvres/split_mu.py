@@ -8,7 +8,7 @@ import numpy as np
 
 from manoeuvres.braking import braked
 from manoeuvres.driving import Driving, Pedal
-from susp_mj.driver import Driver, Path
+from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.features import Patch
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
@@ -55,7 +55,7 @@ class SplitMu(Driving):
         return Road(patches=(Patch((begin, begin + self.length), (low, high), self.friction),))
 
     def driver(self) -> Driver | None:
-        return Driver(Path()) if self.steered else None
+        return PreviewDriver(Path()) if self.steered else None
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from manoeuvres.driving import Driving
 from susp_mj.description import wrong
-from susp_mj.driver import Driver, Path
+from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.features import Circle
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
@@ -29,7 +29,8 @@ class SteadyCircle(Driving):
         increase: rate of the lateral acceleration [m/s³].
         limit: lateral acceleration at which the target stops rising [m/s²]; above what the car can do it drives to its
             limit.
-        understeer: K of the driver, see `susp_mj.driver.Driver`: with that of the car he stays closest to the circle.
+        understeer: K of the driver, see `susp_mj.elements.driver.PreviewDriver`: with that of the car he stays closest
+            to the circle.
         start: [s].
 
     Source: ISO 4138:2012, constant-radius method with continuous speed increase; the rate is ours.
@@ -70,7 +71,7 @@ class SteadyCircle(Driving):
         return Road(features=(Circle(self.radius),))
 
     def driver(self) -> Driver:
-        return Driver(Path(radius=self.radius), understeer=self.understeer)
+        return PreviewDriver(Path(radius=self.radius), understeer=self.understeer)
 
 
 if __name__ == "__main__":

@@ -83,10 +83,10 @@ def callback_cost(plant: Plant, start: mujoco.MjData, blocks: Blocks, steps: int
         return seconds(lambda: mujoco.mj_step(plant.model, data, nstep=steps))
 
     def with_callbacks() -> None:
-        install(plant.laws, plant.contacts)
+        install(plant.laws)
         start_clock()
 
     stepped(with_callbacks)
     measured = statistics.median(stepped(with_callbacks) / stepped(uninstall) for _ in range(repeats))
-    install(plant.laws, plant.contacts)
+    install(plant.laws)
     return measured

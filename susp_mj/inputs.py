@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from .elements.car import HEAD
 from .errors import InputError
 from .manoeuvre import Manoeuvre, ValueAndRate
 from .plant import Plant
@@ -25,15 +24,14 @@ def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, road: Ro
             samples[:, i, 0], samples[:, i, 1] = driven
     if not np.isfinite(samples).all():
         raise InputError(f"manoeuvre {manoeuvre.kind} gives an input that is not finite", source="manoeuvre")
-    if plant.contacts:
-        _check_steering(plant, manoeuvre, samples)
+    if plant.car is not None:
+        _check_steering(plant, float(plant.car.head.steering_limit), manoeuvre, samples)
     return samples
 
 
-def _check_steering(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray) -> None:
+def _check_steering(plant: Plant, limit: float, manoeuvre: Manoeuvre, samples: np.ndarray) -> None:
     """Refuse a steering wheel that is turned further than it goes: the car would hold it at its limit and the run be
     another one."""
-    limit = float(plant.model.numeric_data[HEAD.index("steering_limit")])
     for i, place in enumerate(plant.meaning.inputs):
         largest = float(np.abs(samples[:, i, 0]).max())
         if place.quantity == "steering_wheel_angle" and largest > limit * (1 + 1e-9):

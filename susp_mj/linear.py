@@ -109,7 +109,7 @@ def linearise(plant: Plant) -> Linear:
     Raises:
         InputError, SimulationError: as `static_equilibrium`.
     """
-    if plant.contacts:
+    if plant.car is not None:
         raise InputError(
             f"model {plant.meaning.model} has no modes; choose an oscillation model",
             key="model",

@@ -14,7 +14,7 @@ from .errors import InputError
 from .units import PositiveTime
 
 if TYPE_CHECKING:
-    from .driver import Driver
+    from .elements.driver import Driver
     from .meaning import Input
     from .roads import Road
 

@@ -34,7 +34,7 @@ class Output:
         quantity, station: as in `Channel`.
         terms: (source, name, factor); the source is ``qpos``, ``qvel``, ``qacc`` (name: a joint), ``actuator_force``
             (an actuator), ``input`` or ``input_rate`` (the channel name of an input), ``signal`` (what the compiled car
-            writes, a name in `elements.car.SIGNALS`).
+            writes, a name in `handling.block.SIGNALS`).
     """
 
     quantity: str

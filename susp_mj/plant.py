@@ -15,11 +15,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from .car_file import check_block, check_places
-from .elements.car import CAR_MARK, CAR_NUMERIC, HEAD, SIGNALS, WHEEL
-from .elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
+from .elements import AIR, BRAKE, CONTACT
+from .elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, FORCE, USERDATA_HEADER, Role
 from .errors import InputError, SimulationError
 from .files import write_text
+from .handling.block import CAR_NUMERIC, SIGNALS, CarNumbers
+from .handling.check import check_block, check_places
 from .meaning import Meaning, Output
 from .names import channel_name
 
@@ -87,19 +88,20 @@ class Plant:
         return plant
 
     @cached_property
-    def laws(self) -> tuple[int, ...]:
-        """Numbers of the force laws that the model uses."""
-        return tuple(
-            sorted({int(user[1]) for user in self.model.actuator_user if len(user) > 1 and user[0] == ACTUATOR_MARK})
-        )
+    def car(self) -> CarNumbers | None:
+        """Numbers of a car on tyres with slip, driving freely or on a rig; None in an oscillation model."""
+        return CarNumbers.of(self.model.numeric_data)
 
     @cached_property
-    def contacts(self) -> tuple[int, ...]:
-        """Numbers of the contact laws that the model's tyres use; none in a model without."""
-        if self.model.nnumeric == 0 or self.model.numeric_data[0] != CAR_MARK:
-            return ()
-        wheels = self.model.numeric_data[len(HEAD) : len(HEAD) + 4 * len(WHEEL)].reshape(4, len(WHEEL))
-        return tuple(sorted({int(number) for number in wheels[:, WHEEL.index("tyre_law")]}))
+    def laws(self) -> tuple[tuple[int, Role], ...]:
+        """Numbers of the laws that the model uses, each with the role in which it is called."""
+        users = self.model.actuator_user
+        forces = {int(user[1]) for user in users if len(user) > 1 and user[0] == ACTUATOR_MARK}
+        used = [(number, FORCE) for number in sorted(forces)]
+        if self.car is not None:
+            used += [(number, CONTACT) for number in sorted({int(number) for number in self.car.wheels.tyre_law})]
+            used += [(int(self.car.head.brake_law), BRAKE), (int(self.car.head.air_law), AIR)]
+        return tuple(used)
 
     def index(self, source: str, name: str) -> int:
         """Position of a joint or actuator in MuJoCo's array `source`, of a signal among the car's."""

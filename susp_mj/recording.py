@@ -10,10 +10,10 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from .chassis import free_motion
-from .elements.car import SIGNALS
 from .errors import SimulationError
 from .features import as_json
+from .handling.block import SIGNALS
+from .handling.motion import free_motion
 from .manoeuvre import Manoeuvre
 from .names import channel_name
 from .plant import Plant
@@ -65,7 +65,7 @@ def _channels(plant: Plant, records: np.ndarray, inputs: np.ndarray, *, steered:
     columns = dict(zip(FIELDS, np.split(records[:, : ends[-1]], ends[:-1], axis=1), strict=True))
     columns |= {"input": inputs[..., 0], "input_rate": inputs[..., 1]}
     channels: dict[str, Channel] = {}
-    if plant.contacts:
+    if plant.car is not None:
         columns["signal"] = records[:, -len(SIGNALS) :]
         columns["signal"][:, _TANGENTS] = np.arctan(columns["signal"][:, _TANGENTS])
         motion = free_motion(columns["qpos"], columns["qvel"], columns["qacc"], meaning.facts)

@@ -3,6 +3,7 @@ drives freely."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -108,6 +109,50 @@ class RandomTracks:
         return self._splines[y]
 
 
+_HEAD, _PATCH = 9, 5
+"""Numbers of `Road.block` before the patches, and of each patch."""
+
+
+def _row(block: Sequence[float], first: int, x_place: float, last: int, rows: int, row: int) -> tuple[float, float]:
+    """Height and slope over x of one row of the height field; a cubic through the points, level beyond the ends."""
+    if x_place <= 0.0:
+        return block[first + row], 0.0
+    if x_place >= last:
+        return block[first + last * rows + row], 0.0
+    i = int(x_place)
+    u = x_place - i
+    before, after = max(i - 1, 0), min(i + 2, last)
+    v0, v1 = block[first + i * rows + row], block[first + (i + 1) * rows + row]
+    m0 = 0.5 * (v1 - block[first + before * rows + row])
+    m1 = 0.5 * (block[first + after * rows + row] - v0)
+    rise = v1 - v0
+    c, d = 3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise
+    return v0 + u * (m0 + u * (c + u * d)), (m0 + u * (2.0 * c + 3.0 * u * d)) / block[1]
+
+
+def surface_at(block: Sequence[float], x: float, y: float) -> tuple[float, float, float, float]:
+    """Height [m], slopes over x and y, and friction of `Road.block` at a place [m]; plain, and compiled in the car."""
+    columns, rows, patches = int(block[2]), int(block[5]), int(block[8])
+    friction = 1.0
+    for i in range(patches):
+        patch = _HEAD + _PATCH * i
+        if block[patch] <= x < block[patch + 1] and block[patch + 2] <= y < block[patch + 3]:
+            friction = block[patch + 4]
+    first = _HEAD + _PATCH * patches
+    x_place = (x - block[0]) / block[1]
+    y_place = min(max((y - block[3]) / block[4], 0.0), rows - 1.0)
+    j = min(int(y_place), max(rows - 2, 0))
+    height, slope_x = _row(block, first, x_place, columns - 1, rows, j)
+    slope_y = 0.0
+    if rows > 1:
+        left, left_slope = _row(block, first, x_place, columns - 1, rows, j + 1)
+        share = y_place - j
+        if 0.0 < y_place < rows - 1.0:
+            slope_y = (left - height) / block[4]
+        height, slope_x = height + share * (left - height), slope_x + share * (left_slope - slope_x)
+    return height + block[6] * y, slope_x, slope_y + block[6], friction * block[7]
+
+
 def _flat() -> np.ndarray:
     return np.zeros((2, 1))
 
@@ -143,7 +188,7 @@ class Road:
         return (*self.patches, *self.features)
 
     def block(self) -> np.ndarray:
-        """The road as the compiled car reads it; see `compiled.surroundings`."""
+        """The road as the compiled car reads it; see `surface_at`."""
         spacing_y = self.y[1] - self.y[0] if len(self.y) > 1 else 1.0
         head = [
             self.x[0],

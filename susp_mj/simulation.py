@@ -9,9 +9,9 @@ from collections.abc import Callable
 import mujoco
 import numpy as np
 
-from .elements.car import SIGNALS
 from .equilibrium import static_equilibrium
 from .errors import InputError
+from .handling.block import SIGNALS
 from .inputs import sample_inputs
 from .manoeuvre import Manoeuvre
 from .plant import Plant
@@ -79,12 +79,12 @@ def simulate(
     manoeuvre.check(meaning.inputs, meaning.model)
     _check_step(plant, step)
     _check_length(manoeuvre, step, record_every)
-    install(plant.laws, plant.contacts)
 
     steps = max(round(manoeuvre.duration / step / record_every), 1) * record_every
-    road, driver = (manoeuvre.road(), manoeuvre.driver()) if plant.contacts else (None, None)
+    road, driver = (manoeuvre.road(), manoeuvre.driver()) if plant.car is not None else (None, None)
+    install((*plant.laws, *(() if driver is None else [(driver.law.number, driver.role)])))
     samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2), road)
-    surface = manoeuvre.surface(road) if plant.contacts else None
+    surface = manoeuvre.surface(road) if plant.car is not None else None
     blocks = Blocks(
         input_block(samples, step / 2, plant.entries()),
         None if surface is None else surface.block(),
@@ -101,8 +101,8 @@ def simulate(
     attach_input(data, blocks.inputs, blocks.road, blocks.driver)
     remind(data, memory)
 
-    fields = (*FIELDS, "signals") if plant.contacts else FIELDS
-    width = sum(getattr(data, name).size for name in FIELDS) + (len(SIGNALS) if plant.contacts else 0)
+    fields = (*FIELDS, "signals") if plant.car is not None else FIELDS
+    width = sum(getattr(data, name).size for name in FIELDS) + (len(SIGNALS) if plant.car is not None else 0)
     records = np.empty((steps // record_every + 1, width))
     rows, done, sound = 0, 0, True
     chunk = max(_CHUNK // record_every, 1) * record_every
@@ -136,7 +136,7 @@ def _at_start(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray, step: flo
     at_rest = samples[:1].copy()
     at_rest[..., 1] = 0.0
     block = input_block(at_rest, step / 2, plant.entries())
-    if not plant.contacts:
+    if plant.car is None:
         return static_equilibrium(plant, block)
     return trimmed(
         plant, dataclasses.replace(blocks, inputs=block), manoeuvre.driving_speed() if plant.meaning.driving else 0.0
@@ -146,7 +146,7 @@ def _at_start(plant: Plant, manoeuvre: Manoeuvre, samples: np.ndarray, step: flo
 def fine_enough(plant: Plant) -> int:
     """Into how many steps a millisecond must be cut so that no step exceeds a time constant of the plant."""
     fastest = min((constant.seconds for constant in plant.meaning.time_constants), default=STEP)
-    if plant.contacts:
+    if plant.car is not None:
         fastest *= COARSER
     if fastest < STEP / FINEST:
         return 1  # no step of ours resolves it; the check of the step says so by name

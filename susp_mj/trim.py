@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import mujoco
 import numpy as np
 
-from .elements.car import CRUISE_ABOVE, HEAD, SIGNALS, WHEEL, signals_of
 from .elements.law import ACTUATOR_MARK
+from .elements.powertrain import LONG_AGO, cruising_gear
 from .equilibrium import check_deflections, rest_states, solve
 from .errors import InputError, SimulationError
+from .handling.block import WHEEL_STATE, car_signals_of, names_of
 from .names import CORNERS
 from .plant import Plant
 
 _FORCES = 1e3  # N and N m: scale of the inner states that are forces
 _SPEEDS = 10.0  # rad/s
-_BRISTLE = 2  # which inner state of a wheel is the brake's
-_TRIM_ANGLE, _TRIMMING, _GEAR, _SHIFT_BEGAN = (
-    SIGNALS.index(name) for name in ("trim_angle", "trimming", "gear", "shift_began")
-)
+_BRISTLE = names_of(WHEEL_STATE).index("bristle")
 SETTLED = 1e-6
 """Largest acceleration that counts as none [m/s² or rad/s²]."""
 CREEP = -0.05
@@ -66,7 +65,7 @@ def trimmed(plant: Plant, blocks: Blocks, speed: float) -> mujoco.MjData:
             f"{plant.meaning.source}: load '{plant.meaning.load}' has no steady straight running at {speed:g} m/s "
             f"in model {plant.meaning.model}; check preloads, sprung mass and tyres"
         )
-    if speed > 0 and plant.meaning.driving and signals_of(data.userdata)[SIGNALS.index("accelerator")] < CREEP:
+    if speed > 0 and plant.meaning.driving and car_signals_of(data.userdata).accelerator < CREEP:
         raise InputError(
             f"{speed:g} m/s is not allowed; idling in gear the car creeps faster, and nobody brakes", key="speed"
         )
@@ -79,7 +78,7 @@ def _solved(plant: Plant, blocks: Blocks, speed: float) -> tuple[mujoco.MjData, 
     """Data at the closest found to steady running, and the largest remaining acceleration [m/s² or rad/s²]."""
     from .compiled import attach_input, install
 
-    install(plant.laws, plant.contacts)
+    install(plant.laws)
     model = plant.model
     unknowns = _Unknowns(plant, speed)
     data = mujoco.MjData(model)
@@ -119,10 +118,10 @@ class _Unknowns:
             if names[int(i)] != "driver" and self.driving
         ]
         self.free = np.setdiff1d(np.arange(model.nv), [] if self.driving else self.spins)
-        head = dict(zip(HEAD, model.numeric_data[: len(HEAD)], strict=True))
+        assert plant.car is not None
+        head = plant.car.head
         self.place = np.array([head[f"design_{axis}"] for axis in "xyz"])
-        radius = float(model.numeric_data[len(HEAD) + WHEEL.index("radius")])
-        self.spin = speed / radius
+        self.spin = speed / float(plant.car.wheels[0].radius)
         self.gear, self.engine = _cruising(head, self.spin)
 
         state_scales = [_state_scale(name, k) for _, name, k in self.states]
@@ -153,9 +152,9 @@ class _Unknowns:
         if self.driving:
             data.qvel[0] = self.speed
             data.qvel[self.spins] = v[10:14]
-            signals = signals_of(data.userdata)
-            signals[_TRIM_ANGLE], signals[_TRIMMING] = v[-1], 1.0
-            signals[_GEAR], signals[_SHIFT_BEGAN] = self.gear, -1e3
+            signals = car_signals_of(data.userdata)
+            signals.trim_angle, signals.trimming = v[-1], 1.0
+            signals.gear, signals.shift_began = self.gear, LONG_AGO
         else:
             data.qpos[:2] += v[10:12]
         mujoco.mju_euler2Quat(data.qpos[3:7], [roll, pitch, yaw], "XYZ")
@@ -168,26 +167,25 @@ class _Unknowns:
         return np.concatenate([data.qacc[self.free], data.act_dot[self.rates] / self.rate_scales])
 
 
-def _cruising(head: dict[str, float], spin: float) -> tuple[float, float]:
-    """Gear in which one cruises, and the engine's speed there [rad/s]; the compiled car chooses by the same rule."""
-    gear = int(head["gears"])
-    while gear > 1 and spin * head["final_drive"] * head[f"gear_{gear}"] < CRUISE_ABOVE * head["idle_speed"]:
-        gear -= 1
-    return float(gear), max(spin * head["final_drive"] * head[f"gear_{max(gear, 1)}"], head["idle_speed"])
+def _cruising(head: Any, spin: float) -> tuple[float, float]:
+    """Gear in which one cruises, and the engine's speed there [rad/s]."""
+    shaft = spin * head.final_drive
+    gear = cruising_gear(head, shaft)
+    return float(gear), max(shaft * head.ratios[gear - 1], head.idle_speed)
 
 
-def remembered(plant: Plant, data: mujoco.MjData) -> dict[int, float]:
-    """What the car carries from the trim into the run, by its place among the signals: steering angle and gear."""
-    if not plant.contacts:
+def remembered(plant: Plant, data: mujoco.MjData) -> dict[str, float]:
+    """What the car carries from the trim into the run, by the signal's name: steering angle and gear."""
+    if plant.car is None:
         return {}
-    signals = signals_of(data.userdata)
-    return {place: float(signals[place]) for place in (_TRIM_ANGLE, _GEAR, _SHIFT_BEGAN)}
+    signals = car_signals_of(data.userdata)
+    return {name: float(signals[name]) for name in ("trim_angle", "gear", "shift_began")}
 
 
-def remind(data: mujoco.MjData, memory: dict[int, float]) -> None:
+def remind(data: mujoco.MjData, memory: dict[str, float]) -> None:
     """Give the car what it `remembered` back."""
-    for place, value in memory.items():
-        signals_of(data.userdata)[place] = value
+    for name, value in memory.items():
+        car_signals_of(data.userdata)[name] = value
 
 
 def _state_scale(name: str, k: int) -> float:
@@ -200,7 +198,7 @@ def _state_scale(name: str, k: int) -> float:
 
 def _cannot_reach(data: mujoco.MjData) -> bool:
     """Whether the controller asks for more than the engine gives."""
-    return bool(signals_of(data.userdata)[SIGNALS.index("accelerator")] > 1.0)
+    return bool(car_signals_of(data.userdata).accelerator > 1.0)
 
 
 def _top_speed(plant: Plant, blocks: Blocks, too_fast: float) -> float:

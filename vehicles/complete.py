@@ -5,8 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from susp_mj.elements import GRAVITY, Aerodynamics, Brakes, Compliance, Kinematics, Powertrain, Steering
-from susp_mj.elements.tyres.contact import AnyContactTyre
+from susp_mj.elements import (
+    GRAVITY,
+    Aerodynamics,
+    Brakes,
+    Compliance,
+    ContactTyre,
+    Kinematics,
+    Powertrain,
+    Steering,
+)
 from susp_mj.errors import InputError
 from susp_mj.names import AXLES
 
@@ -102,7 +110,7 @@ class CompleteAxle(LoadedAxle):
     wheel_inertia: float
     kinematics: Kinematics
     compliance: Compliance
-    handling_tyre: AnyContactTyre
+    handling_tyre: ContactTyre
 
     @classmethod
     def of(cls, vehicle: Vehicle, name: str, load: str) -> CompleteAxle:

@@ -12,12 +12,13 @@ from susp_mj.components import MotionRatio
 from susp_mj.description import Description, wrong
 from susp_mj.elements import (
     GRAVITY,
-    Aerodynamics,
     AntiRollBar,
+    AnyAerodynamics,
+    AnyBrakes,
+    AnyContactTyre,
     AnyDamper,
     AnySpring,
     AnyTyre,
-    Brakes,
     Compliance,
     Kinematics,
     LinkageFriction,
@@ -26,7 +27,6 @@ from susp_mj.elements import (
     Steering,
     Tyre,
 )
-from susp_mj.elements.tyres.contact import AnyContactTyre
 from susp_mj.errors import InputError, choices
 from susp_mj.units import Inertia, Length, Mass, PositiveLength
 
@@ -153,8 +153,8 @@ class Vehicle(Description):
     rear: Axle | None = None
     steering: Steering | None = None
     powertrain: Powertrain | None = None
-    brakes: Brakes | None = None
-    aerodynamics: Aerodynamics | None = None
+    brakes: AnyBrakes | None = None
+    aerodynamics: AnyAerodynamics | None = None
     loads: dict[str, LoadCase] = Field(min_length=1)
     sources: dict[str, Provenance] = Field(default_factory=dict)
 

@@ -10,27 +10,23 @@ from __future__ import annotations
 
 import ctypes
 import threading
+from collections.abc import Iterable
 from typing import Any
 
 import mujoco
 from numba import carray, cfunc, from_dtype, types  # pyright: ignore[reportPrivateImportUsage]
 
-from ..elements import LAWS
-from ..elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, LAW_TABLE_SIZE, USERDATA_HEADER
+from ..elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, LAW_TABLE_SIZE, USERDATA_HEADER, Role
 from ..errors import CallbackError
-from .car import car_forces, car_state_rates, is_car
 from .clock import start_clock, stop_clock
-from .laws import compile_contacts, compile_laws, law_call
+from .handling.car import car_forces, car_state_rates, is_car
+from .laws import compile_laws, force_of, state_rate_of
 from .layout import LAYOUT
 from .memory import OPTIONS, bits, doubles, ints, plain
 from .sources import SOURCES
 
 MODEL = types.CPointer(from_dtype(LAYOUT.record("model")))
 DATA = types.CPointer(from_dtype(LAYOUT.record("data")))
-
-
-_force_of = law_call("susp_mj_force_table")
-_state_rate_of = law_call("susp_mj_state_table")
 
 
 @plain
@@ -67,7 +63,7 @@ def _force(model_pointer, data_pointer, actuator):
     state_address = ints(model.actuator_actadr)[actuator]
     state = doubles(data.act)[state_address] if state_address >= 0 else 0.0
     x, v = _deflection(model, data, actuator, own)
-    return -own[5] * _force_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
+    return -own[5] * force_of(int(own[1]), x, v, state, doubles(user + types.uint64(8 * ACTUATOR_HEADER)))
 
 
 @plain
@@ -77,7 +73,7 @@ def _element_state_rate(model, data, actuator, state_address):
     if own[0] != ACTUATOR_MARK or not 0.0 < own[1] < LAW_TABLE_SIZE:
         return 0.0
     x, v = _deflection(model, data, actuator, own)
-    return _state_rate_of(
+    return state_rate_of(
         int(own[1]), x, v, doubles(data.act)[state_address], doubles(user + types.uint64(8 * ACTUATOR_HEADER))
     )
 
@@ -163,22 +159,20 @@ _SLOTS = {
 _installing = threading.Lock()
 
 
-def install(laws: Any = None, contacts: Any = ()) -> None:
+def install(laws: Iterable[tuple[int, Role]] | None = None) -> None:
     """Put the compiled callbacks into MuJoCo; calling it again changes nothing.
 
     MuJoCo has one set of callbacks per process. Models that are not ours pass through them unchanged. MuJoCo's own
     timing stops, see `clock`.
 
     Args:
-        laws: numbers of the laws that will be used; None compiles every registered one.
-        contacts: numbers of the contact laws that will be used.
+        laws: numbers and roles of the laws that will be used; None compiles every registered one.
 
     Raises:
         CallbackError: another program has installed a callback of its own.
     """
     with _installing:
-        compile_laws(LAWS if laws is None else laws)
-        compile_contacts(contacts)
+        compile_laws(laws)
         for name, (get, put, compiled) in _SLOTS.items():
             present = get()
             if present is not None and not _is_ours(present, compiled):

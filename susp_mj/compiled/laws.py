@@ -1,117 +1,142 @@
-"""Compile laws to machine code, once, and keep their addresses in a table that the callbacks look into.
+"""Compile laws to machine code, once, and keep their addresses in tables that the callbacks look into.
 
-The table is reached through a linker symbol, so that code from the disk cache finds the table of this process.
+A table for each role is reached through a linker symbol, so that code from the disk cache finds the tables of this
+process, and a law is never called in another role than its own.
 """
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
 from llvmlite import binding, ir
 from numba import cfunc, types
-from numba.extending import register_jitable
+from numba.core import cgutils
 
-from ..elements import LAWS
+from ..elements import AIR, BRAKE, CONTACT, DRIVER, FORCE, LAWS, Role
 from ..elements.law import LAW_TABLE_SIZE, helpers
-from ..elements.tyres.contact import CONTACT_LAWS
 from ..errors import CallbackError
-from .memory import OPTIONS, intrinsic
+from .memory import OPTIONS, intrinsic, usable
 
-LAW_SIGNATURE = types.float64(types.float64, types.float64, types.float64, types.CPointer(types.float64))
+STATE_RATE = "state_rate"
+"""Table of the second functions of force laws with memory."""
+TABLES = {
+    name: np.zeros(LAW_TABLE_SIZE, np.uint64)
+    for name in (FORCE.name, STATE_RATE, CONTACT.name, BRAKE.name, AIR.name, DRIVER.name)
+}
+for _name, _table in TABLES.items():
+    binding.add_symbol(f"susp_mj_{_name}_table", _table.ctypes.data)
 
-CONTACT_SIGNATURE = types.void(*[types.float64] * 7, types.CPointer(types.float64), types.CPointer(types.float64))
-
-FORCE_TABLE = np.zeros(LAW_TABLE_SIZE, np.uint64)
-STATE_TABLE = np.zeros(LAW_TABLE_SIZE, np.uint64)
-CONTACT_TABLE = np.zeros(LAW_TABLE_SIZE, np.uint64)
-binding.add_symbol("susp_mj_force_table", FORCE_TABLE.ctypes.data)
-binding.add_symbol("susp_mj_state_table", STATE_TABLE.ctypes.data)
-binding.add_symbol("susp_mj_contact_table", CONTACT_TABLE.ctypes.data)
+_PARAMETERS = types.CPointer(types.float64)
 
 
-def _address_in(builder: Any, symbol: str, number: Any) -> Any:
+def compiled_signature(role: Role) -> Any:
+    """Signature of a law's compiled function: the law returns its one answer, or writes them."""
+    asked = [types.float64] * len(role.asked)
+    if not role.answers:
+        return types.float64(*asked, _PARAMETERS)
+    return types.void(*asked, _PARAMETERS, _PARAMETERS)
+
+
+def _address_in(builder: Any, table: str, number: Any) -> Any:
     """Code that reads one entry of a table of addresses."""
-    word = ir.IntType(64)
-    table = builder.module.globals.get(symbol)
-    if table is None:
-        table = ir.GlobalVariable(builder.module, ir.ArrayType(word, LAW_TABLE_SIZE), symbol)
-        table.linkage = "external"
-    return builder.load(builder.gep(table, [ir.Constant(word, 0), number]))
+    word, symbol = ir.IntType(64), f"susp_mj_{table}_table"
+    found = builder.module.globals.get(symbol)
+    if found is None:
+        found = ir.GlobalVariable(builder.module, ir.ArrayType(word, LAW_TABLE_SIZE), symbol)
+        found.linkage = "external"
+    return builder.load(builder.gep(found, [ir.Constant(word, 0), number]))
 
 
-def law_call(symbol: str) -> Any:
-    """Intrinsic ``call(number, x, v, y, parameters)`` through a table of addresses; 0 where the table is empty."""
-
-    @intrinsic
-    def call(context, number, x, v, y, parameters):
-        signature = types.float64(
-            types.intp, types.float64, types.float64, types.float64, types.CPointer(types.float64)
-        )
-
-        def generate(target, builder, signature, arguments):
-            word, double = ir.IntType(64), ir.DoubleType()
-            address = _address_in(builder, symbol, arguments[0])
-            result = builder.alloca(double)
-            builder.store(ir.Constant(double, 0.0), result)
-            with builder.if_then(builder.icmp_unsigned("!=", address, ir.Constant(word, 0))):
-                kind = ir.FunctionType(double, [double, double, double, double.as_pointer()])
-                law = builder.inttoptr(address, kind.as_pointer())
-                builder.store(builder.call(law, arguments[1:]), result)
-            return builder.load(result)
-
-        return signature, generate
-
-    return call
-
-
-@intrinsic
-def contact_call(context, number, kappa, tan_alpha, camber, load, rolling, lateral, friction, parameters, out):
-    """Call a contact law by its number; does nothing where the table is empty."""
-    pointer = types.CPointer(types.float64)
-    signature = types.void(types.intp, *[types.float64] * 7, pointer, pointer)
+def _call(role: Role, table: str | None = None) -> tuple[Any, Callable[..., Any]]:
+    """Typing and code of a call ``law(number, *asked, parameters)``: its answer, or a tuple of them; 0 where the table
+    is empty."""
+    count = len(role.answers)
+    result = types.UniTuple(types.float64, count) if count else types.float64
+    signature = result(types.intp, *[types.float64] * len(role.asked), _PARAMETERS)
 
     def generate(target, builder, signature, arguments):
-        double = ir.DoubleType()
-        address = _address_in(builder, "susp_mj_contact_table", arguments[0])
+        double, pointer = ir.DoubleType(), ir.DoubleType().as_pointer()
+        answers = cgutils.alloca_once(builder, double, size=max(count, 1))
+        for i in range(max(count, 1)):
+            builder.store(ir.Constant(double, 0.0), builder.gep(answers, [ir.Constant(ir.IntType(32), i)]))
+        address = _address_in(builder, table or role.name, arguments[0])
         with builder.if_then(builder.icmp_unsigned("!=", address, ir.Constant(ir.IntType(64), 0))):
-            kind = ir.FunctionType(ir.VoidType(), [*[double] * 7, double.as_pointer(), double.as_pointer()])
-            builder.call(builder.inttoptr(address, kind.as_pointer()), arguments[1:])
-        return target.get_dummy_value()
+            asked = [double] * len(role.asked)
+            if count:
+                law = builder.inttoptr(address, ir.FunctionType(ir.VoidType(), [*asked, pointer, pointer]).as_pointer())
+                builder.call(law, [*arguments[1:], answers])
+            else:
+                law = builder.inttoptr(address, ir.FunctionType(double, [*asked, pointer]).as_pointer())
+                builder.store(builder.call(law, arguments[1:]), answers)
+        if not count:
+            return builder.load(answers)
+        values = [builder.load(builder.gep(answers, [ir.Constant(ir.IntType(32), i)])) for i in range(count)]
+        return target.make_tuple(builder, signature.return_type, values)
 
     return signature, generate
 
 
-def compile_laws(numbers: Iterable[int]) -> None:
-    """Compile the laws with these numbers, unless they are in the tables already.
+@intrinsic
+def force_of(context, number, deflection, speed, state, parameters):
+    """Force of an element."""
+    return _call(FORCE)
+
+
+@intrinsic
+def state_rate_of(context, number, deflection, speed, state, parameters):
+    """Rate of an element's inner state."""
+    return _call(FORCE, STATE_RATE)
+
+
+@intrinsic
+def contact_of(context, number, kappa, tan_alpha, camber, load, rolling, lateral, friction, parameters):
+    """Forces, moments, relaxation lengths and rolling radius of a tyre."""
+    return _call(CONTACT)
+
+
+@intrinsic
+def brake_of(context, number, pedal, bristle, spin, front, parameters):
+    """Torque of a brake and the rate of its inner state."""
+    return _call(BRAKE)
+
+
+@intrinsic
+def air_of(context, number, along, across, wheelbase, parameters):
+    """Force and moment of the air."""
+    return _call(AIR)
+
+
+@intrinsic
+def driver_of(context, number, x, y, heading, speed, angle, ratio, wheelbase, limit, parameters):
+    """Rate of the driver's steering wheel, and the car's deviation from his path."""
+    return _call(DRIVER)
+
+
+def compile_laws(used: Iterable[tuple[int, Role]] | None = None) -> None:
+    """Compile laws, unless they are in the tables already.
+
+    Args:
+        used: numbers and the roles in which they are called; None compiles every registered law.
 
     Raises:
-        CallbackError: no law has that number, or numba cannot compile one.
+        CallbackError: no law of that role has that number, or numba cannot compile one.
     """
-    for number in numbers:
-        if number not in LAWS:
-            raise CallbackError(f"the model uses force law {number}, which is not known; register its element first")
-        if FORCE_TABLE[number] == 0:
-            law = LAWS[number]
+    for number, role in [(number, law.role) for number, law in LAWS.items()] if used is None else used:
+        law = LAWS.get(number)
+        if law is None:
+            raise CallbackError(
+                f"the model uses {role.name} law {number}, which is not known; register its element first"
+            )
+        if law.role != role:
+            raise CallbackError(f"the model uses law '{law.name}' as a {role.name} law; it is a {law.role.name} law")
+        if TABLES[role.name][number] == 0:
+            signature = compiled_signature(role)
             if law.state_rate is not None:
-                STATE_TABLE[number] = _compiled(law.name, law.state_rate, LAW_SIGNATURE).address
-            FORCE_TABLE[number] = _compiled(law.name, law.force, LAW_SIGNATURE).address
-
-
-def compile_contacts(numbers: Iterable[int]) -> None:
-    """Compile the contact laws with these numbers, unless they are in the table already.
-
-    Raises:
-        CallbackError: no contact law has that number, or numba cannot compile one.
-    """
-    for number in numbers:
-        if number not in CONTACT_LAWS:
-            raise CallbackError(f"the model uses contact law {number}, which is not known; register its tyre first")
-        if CONTACT_TABLE[number] == 0:
-            law = CONTACT_LAWS[number]
-            CONTACT_TABLE[number] = _compiled(law.name, law.contact, CONTACT_SIGNATURE).address
+                TABLES[STATE_RATE][number] = _compiled(law.name, law.state_rate, signature).address
+            TABLES[role.name][number] = _compiled(law.name, law.function, signature).address
 
 
 @functools.cache
@@ -122,7 +147,7 @@ def _compiled(name: str, function: Any, signature: Any) -> Any:
     another name as a script than imported.
     """
     for helper in helpers(function).values():
-        register_jitable(**OPTIONS)(helper)
+        usable(helper)
     try:
         compiled = cfunc(signature, **OPTIONS, cache=function.__module__.startswith("susp_mj."))(function)
     except Exception as error:

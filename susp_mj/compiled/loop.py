@@ -13,9 +13,9 @@ import numpy as np
 from llvmlite import binding
 from numba import carray, njit, types  # pyright: ignore[reportPrivateImportUsage]
 
-from ..elements.car import signals_of
 from ..elements.law import ACTUATOR_MARK, USERDATA_HEADER
 from ..errors import CallbackError
+from ..handling.block import signals_of
 from .layout import LAYOUT
 from .memory import doubles
 

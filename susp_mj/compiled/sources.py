@@ -9,11 +9,13 @@ from __future__ import annotations
 import zlib
 from pathlib import Path
 
-_FOLDERS = (Path(__file__).parent, Path(__file__).parent.parent / "elements")
+_PACKAGE = Path(__file__).parent.parent
+_PLACES = ("compiled/**/*.py", "elements/**/*.py", "handling/**/*.py", "roads.py")
 
 
 def _identity() -> int:
-    return zlib.crc32(b"".join(path.read_bytes() for folder in _FOLDERS for path in sorted(folder.glob("*.py")))) | 1
+    files = sorted(path for place in _PLACES for path in _PACKAGE.glob(place))
+    return zlib.crc32(b"".join(path.read_bytes() for path in files)) | 1
 
 
 SOURCES = _identity()

@@ -1,17 +1,19 @@
-"""Force elements: a validated description beside its law, one noun a file."""
+"""Elements: a validated description beside its law, one noun a file; `register` adds your own."""
 
 from __future__ import annotations
 
-from ..errors import CallbackError
-from .aero import Aerodynamics
-from .bars import AntiRollBar, Overturning, Rig
-from .brakes import Brakes
-from .dampers import DAMPERS, DIRECT_DAMPER, MOUNTED_DAMPER, AnyDamper, Damper, TableDamper, ZonedDamper
-from .element import Element
+from .aero import AERODYNAMICS, AIR, Aerodynamics, AnyAerodynamics, LinearAerodynamics
+from .bars import AntiRollBar, Overturning
+from .brakes import BRAKE, BRAKES, AnyBrakes, Brakes, ProportionalBrakes
+from .dampers import DAMPERS, AnyDamper, Damper, TableDamper, ZonedDamper
+from .driver import DRIVER, Driver, Path, PreviewDriver
+from .element import Element, ForceElement
 from .friction import LinkageFriction
 from .kinematics import Compliance, Kinematics
-from .law import Law, helpers
+from .law import FORCE, Law, Role
 from .powertrain import Powertrain
+from .registry import FAMILIES, LAWS, register
+from .spring_damper import SpringDamper
 from .springs import (
     GRAVITY,
     SPRINGS,
@@ -24,76 +26,31 @@ from .springs import (
 )
 from .steering import Steering
 from .stops import Stops
-from .tyres.contact import (
-    CONTACT_LAWS,
-    CONTACT_TYRES,
-    AnyContactTyre,
-    ContactForces,
-    ContactLaw,
-    ContactTyre,
-    register_contact_tyre,
-)
+from .tyres.contact import CONTACT_TYRES, AnyContactTyre
+from .tyres.contact_tyre import CONTACT, ContactForces, ContactTyre
 from .tyres.linear import LinearContactTyre
 from .tyres.magic_formula import MagicFormulaTyre
 from .tyres.vertical import TYRES, AnyTyre, Tyre, TyreSpring
 
-LAWS: dict[int, Law] = {
-    law.number: law
-    for law in (
-        LinearSpring.law,
-        ConstantFrequencySpring.law,
-        ProgressiveSpring.law,
-        TableSpring.law,
-        Stops.law,
-        DIRECT_DAMPER,
-        MOUNTED_DAMPER,
-        LinkageFriction.law,
-        TyreSpring.law,
-        AntiRollBar.law,
-        Overturning.law,
-        Rig.law,
-    )
-}
-_KINDS: tuple[tuple[type[Element], dict[str, type]], ...] = ((Spring, SPRINGS), (Damper, DAMPERS), (Tyre, TYRES))
-
-
-def register(element: type[Element]) -> None:
-    """Make a spring, damper or tyre of your own available by its `kind`, in files and in compiled callbacks.
-
-    Args:
-        element: subclass of Spring, Damper or Tyre with `kind` as a `Literal`, `law` and `parameters`.
-
-    Raises:
-        CallbackError: its kind or the number of its law is taken by something else, or the law calls functions of
-            another module.
-    """
-    kinds = next((kinds for base, kinds in _KINDS if issubclass(element, base)), None)
-    if kinds is None:
-        raise CallbackError(f"{element.__name__} must derive from Spring, Damper or Tyre")
-    kind = element.model_fields["kind"].default
-    if not isinstance(kind, str):
-        raise CallbackError(f"{element.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")
-    if kinds.get(kind, element) is not element:
-        raise CallbackError(f"kind '{kind}' of {element.__name__} is taken by {kinds[kind].__name__}")
-    law = element.law
-    if LAWS.get(law.number, law) != law:
-        raise CallbackError(f"law '{law.name}' has the same number as '{LAWS[law.number].name}'; rename it")
-    for function in law.functions():
-        helpers(function)
-    kinds[kind] = element
-    LAWS[law.number] = law
-
-
 __all__ = [
-    "CONTACT_LAWS",
+    "AERODYNAMICS",
+    "AIR",
+    "BRAKE",
+    "BRAKES",
+    "CONTACT",
     "CONTACT_TYRES",
     "DAMPERS",
+    "DRIVER",
+    "FAMILIES",
+    "FORCE",
     "GRAVITY",
     "LAWS",
     "SPRINGS",
     "TYRES",
     "Aerodynamics",
     "AntiRollBar",
+    "AnyAerodynamics",
+    "AnyBrakes",
     "AnyContactTyre",
     "AnyDamper",
     "AnySpring",
@@ -102,21 +59,27 @@ __all__ = [
     "Compliance",
     "ConstantFrequencySpring",
     "ContactForces",
-    "ContactLaw",
     "ContactTyre",
     "Damper",
+    "Driver",
     "Element",
+    "ForceElement",
     "Kinematics",
     "Law",
+    "LinearAerodynamics",
     "LinearContactTyre",
     "LinearSpring",
     "LinkageFriction",
     "MagicFormulaTyre",
     "Overturning",
+    "Path",
     "Powertrain",
+    "PreviewDriver",
     "ProgressiveSpring",
-    "Rig",
+    "ProportionalBrakes",
+    "Role",
     "Spring",
+    "SpringDamper",
     "Steering",
     "Stops",
     "TableDamper",
@@ -125,5 +88,4 @@ __all__ = [
     "TyreSpring",
     "ZonedDamper",
     "register",
-    "register_contact_tyre",
 ]

@@ -2,16 +2,45 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+import math
+from collections.abc import MutableSequence
+from typing import Annotated, ClassVar, Literal
 
-from ..description import Description
 from ..units import Dimensionless, Quantity
+from .element import Element, chosen_from
+from .law import Law, Parameters, Role
 
+AIR = Role("air", ("along", "across", "wheelbase"), ("x", "y", "z", "roll", "pitch", "yaw"))
+"""Of the air around the car: ``air(along, across, wheelbase, p, out)`` with the velocity of the air relative to the car
+(wind less the car's own) in the car's axes, forwards and to the left [m/s], and the wheelbase [m]. It writes force [N]
+and moment [N m] in the car's axes about the reference point: on the ground, in the middle of wheelbase and track."""
 AIR_DENSITY = 1.225
 """Of the standard atmosphere at sea level [kg/m³] (ISO 2533)."""
 
 
-class Aerodynamics(Description):
+def linear_air(along: float, across: float, wheelbase: float, p: Parameters, out: MutableSequence[float]) -> None:
+    """The formulas of `LinearAerodynamics`; p = rho A/2, drag, lift front, lift rear, side, yaw."""
+    for i in range(6):
+        out[i] = 0.0
+    square = along * along + across * across
+    if square < 1e-12:
+        return
+    beta = math.atan2(across, -along)
+    q = p[0] * square
+    front, rear = q * p[2], q * p[3]
+    out[0], out[1], out[2] = p[0] * p[1] * math.sqrt(square) * along, q * p[4] * beta, front + rear
+    out[4], out[5] = (rear - front) * (wheelbase / 2.0), q * wheelbase * p[5] * beta
+
+
+class Aerodynamics(Element):
+    """Force and moment of the air on the car; see `AIR`."""
+
+    role: ClassVar[Role] = AIR
+
+    kind: str
+
+
+class LinearAerodynamics(Aerodynamics):
     """Air forces in the car's axes at the reference point: on the ground, in the middle of wheelbase and track.
 
     With u the velocity of the air relative to the car (wind less the car's own), ``V² = u_x² + u_y²`` and the angle of
@@ -34,6 +63,9 @@ class Aerodynamics(Description):
         density: rho of the air [kg/m³].
     """
 
+    law: ClassVar[Law] = Law("linear_air", linear_air, role=AIR)
+
+    kind: Literal["linear"] = "linear"
     area: Annotated[float, Quantity("m²", gt=0)]
     drag: Annotated[float, Quantity("", ge=0)]
     lift_front: Dimensionless
@@ -41,3 +73,11 @@ class Aerodynamics(Description):
     side: Annotated[float, Quantity("1/rad")]
     yaw: Annotated[float, Quantity("1/rad")]
     density: Annotated[float, Quantity("kg/m³", ge=0)] = AIR_DENSITY
+
+    def parameters(self) -> tuple[float, ...]:
+        half = self.density * self.area / 2
+        return (half, self.drag, self.lift_front, self.lift_rear, self.side, self.yaw)
+
+
+AERODYNAMICS: dict[str, type[Aerodynamics]] = {"linear": LinearAerodynamics}
+AnyAerodynamics = Annotated[Aerodynamics, chosen_from(AERODYNAMICS, usual="linear")]

@@ -1,11 +1,11 @@
-"""Elements that act on the roll of axle and body: anti-roll bars, gravity on a rolling body, the roll rig."""
+"""Elements that act on the roll of axle and body: anti-roll bars, gravity on a rolling body."""
 
 from __future__ import annotations
 
 from typing import ClassVar
 
 from ..units import NonNegativeStiffness
-from .element import Element
+from .element import ForceElement
 from .law import Law, Parameters
 
 
@@ -19,12 +19,7 @@ def overturning_moment(deflection: float, speed: float, state: float, p: Paramet
     return -p[0] * deflection
 
 
-def rig_force(deflection: float, speed: float, state: float, p: Parameters) -> float:
-    """Stiff servo, ``k e + d de/dt`` of the deviation e; p = k, d."""
-    return p[0] * deflection + p[1] * speed
-
-
-class AntiRollBar(Element):
+class AntiRollBar(ForceElement):
     """Anti-roll bar (stabiliser): ``F = c (x_left - x_right) / 2`` on the left wheel, its opposite on the right.
 
     The rate c is force per wheel over that wheel's own travel in pure roll, so its roll moment is ``c t²/2 phi``.
@@ -43,7 +38,7 @@ class AntiRollBar(Element):
         return (self.rate,)
 
 
-class Overturning(Element):
+class Overturning(ForceElement):
     """Gravity on a body that rolls about an axis below its centre of gravity: moment ``m g h phi`` in the sense of phi.
 
     Attributes:
@@ -56,20 +51,3 @@ class Overturning(Element):
 
     def parameters(self) -> tuple[float, ...]:
         return (self.moment,)
-
-
-class Rig(Element):
-    """A servo that holds a freedom at a prescribed value: ``k e + d de/dt``.
-
-    Attributes:
-        stiffness: k [N m/rad].
-        damping: d [N m s/rad].
-    """
-
-    law: ClassVar[Law] = Law("rig", rig_force)
-
-    stiffness: float
-    damping: float
-
-    def parameters(self) -> tuple[float, ...]:
-        return (self.stiffness, self.damping)

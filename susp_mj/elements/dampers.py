@@ -15,7 +15,7 @@ from pydantic import Field, field_validator, model_validator
 
 from ..description import Description, wrong
 from ..units import Damping, NonNegativeForce, Quantity, Stiffness
-from .element import Element, FloatArray, chosen_from
+from .element import FloatArray, ForceElement, chosen_from
 from .law import Law, Parameters
 
 
@@ -74,7 +74,7 @@ class Mount(Description):
     rate: Stiffness
 
 
-class Damper(Element):
+class Damper(ForceElement):
     """A hydraulic damper with rod friction, with or without a rubber mount in series.
 
     Without a mount ``F = F_d(v) + F_f (2/pi) arctan(201.7 v)``. With a mount of rate k1 the rod deflection y is a

@@ -1,4 +1,4 @@
-"""What every force element has in common, and how a file chooses one by its `kind`."""
+"""What every element has in common: a description whose law turns its parameters into forces, chosen by its `kind`."""
 
 from __future__ import annotations
 
@@ -13,18 +13,20 @@ from pydantic_core import PydanticCustomError
 
 from ..description import Description
 from ..errors import choices
-from .law import Law
+from .law import FORCE, Law, Role
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
 
 class Element(Description, ABC):
-    """Description of a force element; `law` turns `parameters()` into a force.
+    """Description of an element; `law` turns `parameters()` into what the element does.
 
     A subclass provides the fields, the class attribute `law` and `parameters`; evaluation, plotting and the MJCF
     builders do the rest.
     """
 
+    role: ClassVar[Role]
+    """What the laws of the element's family are asked and answer."""
     law: ClassVar[Law]
 
     @property
@@ -36,36 +38,45 @@ class Element(Description, ABC):
     def parameters(self) -> tuple[float, ...]:
         """Numbers handed to the law, SI, in the law's own order."""
 
+
+class ForceElement(Element):
+    """An element that pushes two points apart."""
+
+    role: ClassVar[Role] = FORCE
+
     def evaluate(self, deflection: ArrayLike = 0.0, speed: ArrayLike = 0.0, state: ArrayLike = 0.0) -> FloatArray:
         """Force [N] of the law, positive in compression; arguments broadcast as in numpy."""
         p = self.parameters()
-        force = np.vectorize(lambda x, v, y: self.active_law.force(x, v, y, p), otypes=[float])
+        force = np.vectorize(lambda x, v, y: self.active_law.function(x, v, y, p), otypes=[float])
         return force(np.asarray(deflection, float), np.asarray(speed, float), np.asarray(state, float))
 
 
 Kind = TypeVar("Kind", bound=Description)
 
 
-def chosen_kind(data: Mapping[Any, Any], kinds: Mapping[str, type[Kind]]) -> type[Kind]:
-    """The class that a table asks for by its `kind`.
+def chosen_kind(data: Mapping[Any, Any], kinds: Mapping[str, type[Kind]], usual: str | None = None) -> type[Kind]:
+    """The class that a table asks for by its `kind`, or the `usual` one.
 
     Raises:
         PydanticCustomError: for use in validators; no kind, or an unknown one.
     """
-    kind = data.get("kind")
+    kind = data.get("kind", usual)
     if kind is None:
         raise PydanticCustomError("unknown_kind", "is required; {text}", {"text": choices(kinds), "key": "kind"})
     if not isinstance(kind, str) or kind not in kinds:
-        raise PydanticCustomError(
-            "unknown_kind", "{text}", {"text": f"'{kind}' unknown; {choices(kinds, kind)}", "key": "kind"}
-        )
+        text = f"'{kind}' unknown; {choices(kinds, kind)}"
+        raise PydanticCustomError("unknown_kind", "{text}", {"text": text, "key": "kind"})
     return kinds[kind]
 
 
-def chosen_from(kinds: Mapping[str, type[Kind]]) -> BeforeValidator:
-    """Validator that reads a table by its `kind`; `kinds` is looked up at use, so registered kinds count too."""
+def chosen_from(kinds: Mapping[str, type[Kind]], usual: str | None = None) -> BeforeValidator:
+    """Validator that reads a table by its `kind`; `kinds` is looked up at use, so registered kinds count too.
+
+    Args:
+        usual: kind of a table that names none.
+    """
 
     def choose(data: Any) -> Any:
-        return chosen_kind(data, kinds).model_validate(data) if isinstance(data, dict) else data
+        return chosen_kind(data, kinds, usual).model_validate(data) if isinstance(data, dict) else data
 
     return BeforeValidator(choose)

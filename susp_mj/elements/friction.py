@@ -6,7 +6,7 @@ import math
 from typing import ClassVar
 
 from ..units import PositiveForce
-from .element import Element
+from .element import ForceElement
 from .law import Law, Parameters
 
 
@@ -15,7 +15,7 @@ def linkage_friction_force(deflection: float, speed: float, state: float, p: Par
     return p[0] * 2.0 / math.pi * math.atan(201.7 * speed)
 
 
-class LinkageFriction(Element):
+class LinkageFriction(ForceElement):
     """Regularised Coulomb friction of joints and bushings: ``F = F_max (2/pi) arctan(201.7 v)`` (thesis 5.13).
 
     201.7 s/m makes it 90 % of F_max at 0.0314 m/s, the peak speed of 0.01 m at 0.5 Hz.

@@ -1,4 +1,4 @@
-"""A force law: the plain scalar function that runs in Python as it stands and, compiled, inside MuJoCo's callbacks."""
+"""A law: the plain scalar function that runs in Python as it stands and, compiled, inside MuJoCo's callbacks."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from typing import Any
 from ..errors import CallbackError
 
 Parameters = Sequence[float]
-ScalarLaw = Callable[[float, float, float, Parameters], float]
 
 LAW_TABLE_SIZE = 4096
 ACTUATOR_MARK = 20070612.0
@@ -28,31 +27,62 @@ block, of the road's and of the driver's (0 where there is none)."""
 
 
 @dataclass(frozen=True)
-class Law:
-    """Force law of one element between two points whose distance shortens by `deflection`.
+class Role:
+    """What laws of one kind are asked and what they answer.
 
     Attributes:
-        name: unique name; the number that stands for the law in an MJCF file is derived from it.
-        force: ``force(deflection [m], speed [m/s], state, parameters) -> N``, positive when it pushes the points apart.
-        state_rate: derivative of the inner state with the same arguments, or None for a law without memory. The
-            state at rest is the deflection itself (the series mount carries no force).
-
-    Both functions see `parameters` as something that only `parameters[i]` works on, may use `math` and helper functions
-    of their own module, and nothing else: that is what lets numba compile them unchanged.
+        name: one word.
+        asked: the arguments, numbers in this order; the law's parameters follow them.
+        answers: what the law writes into its last argument ``out``, in this order; empty for a law that returns its
+            one answer.
     """
 
     name: str
-    force: ScalarLaw
-    state_rate: ScalarLaw | None = None
+    asked: tuple[str, ...]
+    answers: tuple[str, ...] = ()
+
+
+FORCE = Role("force", ("deflection", "speed", "state"))
+"""Of an element between two points whose distance shortens by `deflection` [m]: ``force(deflection, speed, state, p)``
+[N], positive when it pushes the points apart."""
+
+
+@dataclass(frozen=True)
+class Law:
+    """Law of one element.
+
+    Attributes:
+        name: unique name; the number that stands for the law in an MJCF file is derived from it.
+        function: ``function(*asked, parameters)``, or ``function(*asked, parameters, out)``, as its role says.
+        state_rate: of a force law with memory: derivative of its inner state with the same arguments. The state at
+            rest is the deflection itself (the series mount carries no force).
+        role: what the function is asked and answers.
+
+    The functions see `parameters` and `out` as something that only ``[i]`` works on, may use `math` and helper
+    functions of their own module, and nothing else: that is what lets numba compile them unchanged.
+    """
+
+    name: str
+    function: Callable[..., Any]
+    state_rate: Callable[..., float] | None = None
+    role: Role = FORCE
 
     @property
     def number(self) -> int:
         """Identity of the law in an MJCF file, 1..4095, derived from the name and thus the same on every machine."""
         return zlib.crc32(self.name.encode()) % (LAW_TABLE_SIZE - 1) + 1
 
-    def functions(self) -> tuple[ScalarLaw, ...]:
+    def functions(self) -> tuple[Callable[..., Any], ...]:
         """The law's functions that need compiling."""
-        return (self.force,) if self.state_rate is None else (self.force, self.state_rate)
+        return (self.function,) if self.state_rate is None else (self.function, self.state_rate)
+
+    def answer(self, *asked: float, parameters: Parameters) -> tuple[float, ...]:
+        """What the law answers, in Python."""
+        if not self.role.answers:
+            return (self.function(*asked, parameters),)
+        out = [0.0] * len(self.role.answers)
+        self.function(*asked, parameters, out)
+        return tuple(out)
 
 
 def helpers(function: Callable[..., Any]) -> dict[str, FunctionType]:

@@ -3,13 +3,100 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
 from ..description import Description, wrong
 from ..units import AngularSpeed, Inertia, Moment, Quantity, Time
 from .tables import check_length
+
+CRUISE_ABOVE, CRUISE_DOWN = 2.8, 1.2
+"""A car that begins to run cruises in the highest gear in which the engine turns so many times faster than idling, and
+with the accelerator released it shifts down below the second."""
+LIMITER_WIDTH = 0.03
+"""The limiter takes the torque away while the engine's speed exceeds the map's last by this share."""
+SHIFT_OPEN, MATCHING_TIME = 0.6, 0.05
+"""Share of a shift for which the drive is open, and the time [s] in which the engine is brought to the speed of the new
+gear."""
+SHORTEST_SHIFT = 1e-3
+"""Time [s] from one shift to the next at least."""
+LONG_AGO = -1e3
+
+
+def cruising_gear(car: Any, shaft_speed: float) -> int:
+    """Highest gear in which the engine, at a speed of the shaft [rad/s], turns `CRUISE_ABOVE` times as fast as idle."""
+    gear = int(car.gears)
+    while gear > 1 and shaft_speed * car.ratios[gear - 1] < CRUISE_ABOVE * car.idle_speed:
+        gear -= 1
+    return gear
+
+
+def shifted_gear(car: Any, signals: Any, time: float, shaft_speed: float, accelerator: float) -> int:
+    """Gear at a speed of the propeller shaft [rad/s]; remembers gear and the beginning of a shift. The first call
+    chooses a gear to cruise in.
+
+    The speed is that of wheels which roll: neither a locked wheel nor a spinning one shifts the box. The accelerator is
+    that of the manoeuvre: released, as under braking or with the speed controller in charge, the gear is held as long
+    as the engine can turn in it; floored, `shift_down` holds; between, the threshold lies between.
+
+    Args:
+        car: with `gears`, `ratios`, `idle_speed`, `shift_up`, `shift_down` and `shift_time`.
+        signals: with `gear`, `shift_began` and `trimming`.
+    """
+    count, gear = int(car.gears), int(signals.gear)
+    if gear < 1 or gear > count:
+        gear = cruising_gear(car, shaft_speed)
+        signals.shift_began = LONG_AGO
+    elif signals.trimming == 0.0 and time - signals.shift_began > max(car.shift_time, SHORTEST_SHIFT):
+        engine_side = shaft_speed * car.ratios[gear - 1]
+        least = CRUISE_DOWN * car.idle_speed
+        below = least + min(max(accelerator, 0.0), 1.0) * max(car.shift_down - least, 0.0)
+        if engine_side > car.shift_up and gear < count:
+            gear += 1
+            signals.shift_began = time
+        elif engine_side < below and gear > 1:
+            gear -= 1
+            signals.shift_began = time
+    signals.gear = gear
+    return gear
+
+
+def engine_torque(car: Any, speed: float, pedal: float, full: float, drag: float) -> float:
+    """Torque of the engine [N m] with limiter and idle governor.
+
+    Args:
+        car: with `engine_limit`, `idle_speed`, `idle_gain` and `idle_torque`.
+        speed: of the engine [rad/s].
+        pedal: accelerator.
+        full, drag: torque at full and at no accelerator [N m].
+    """
+    limiter = 1.0 - min(max((speed / car.engine_limit - 1.0) / LIMITER_WIDTH, 0.0), 1.0)
+    idle = min(max(car.idle_gain * (car.idle_speed - speed), 0.0), car.idle_torque)
+    return drag + limiter * pedal * (full - drag) + idle
+
+
+def passed_torque(car: Any, signals: Any, time: float, engine_speed: float, input_speed: float, torque: float) -> float:
+    """Torque [N m] that the coupling passes on; writes the rate of the engine's speed.
+
+    A converter at standstill, locked up by a viscous clutch once the shaft turns faster than idling; a shift opens
+    both, and until they close again the engine is brought to the shaft's speed.
+
+    Args:
+        car: with `idle_speed`, `shift_time`, `converter`, `coupling`, `coupling_limit` and `engine_inertia`.
+        signals: with `shift_began`; `engine_rate` is written.
+        engine_speed, input_speed: before and behind the coupling [rad/s].
+        torque: of the engine [N m].
+    """
+    lock = min(max(2.0 * input_speed / car.idle_speed - 1.6, 0.0), 1.0)
+    since = (time - signals.shift_began) / max(car.shift_time, SHORTEST_SHIFT)
+    closed = min(max((since - SHIFT_OPEN) / (1.0 - SHIFT_OPEN), 0.0), 1.0)
+    slip = engine_speed - input_speed
+    passed = closed * (car.converter * max(engine_speed, 0.0) + lock * car.coupling) * slip
+    passed = min(max(passed, -car.coupling_limit), car.coupling_limit)
+    matched = (max(input_speed, car.idle_speed) - engine_speed) / MATCHING_TIME
+    signals.engine_rate = closed * (torque - passed) / car.engine_inertia + (1.0 - closed) * matched
+    return passed
 
 
 def _rpm(speed: float) -> str:

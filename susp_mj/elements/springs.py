@@ -15,7 +15,7 @@ from pydantic import Field, model_validator
 
 from ..description import wrong
 from ..units import NaturalFrequency, NonNegativeForce, PositiveForce, Quantity, Stiffness
-from .element import Element, FloatArray, chosen_from
+from .element import FloatArray, ForceElement, chosen_from
 from .law import Law, Parameters
 from .stops import Stops
 
@@ -68,7 +68,7 @@ def table_force(deflection: float, speed: float, state: float, p: Parameters) ->
     return ((p[c] * s + p[c + 1]) * s + p[c + 2]) * s + p[c + 3]
 
 
-class Spring(Element):
+class Spring(ForceElement):
     """A spring effective at the wheel, between its stops.
 
     Attributes:

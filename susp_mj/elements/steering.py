@@ -2,10 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 from ..description import Description
 from ..units import Inertia, Length, Quantity
+
+
+def limited_angle(angle: float, rate: float, limit: float) -> tuple[float, float]:
+    """Angle [rad] of the steering wheel and its rate, held where it goes no further."""
+    return (math.copysign(limit, angle), 0.0) if abs(angle) > limit else (angle, rate)
+
+
+def rack_angle(angle: float, rate: float, ratio: float, bend: float) -> tuple[float, float]:
+    """Angle [rad] that the rack gives a wheel, ``d + bend d²`` with ``d = angle/ratio``, and its rate.
+
+    Args:
+        angle, rate: of the steering wheel.
+        bend: ``ackermann track/(2 wheelbase)``, negative for the right wheel.
+    """
+    mean, mean_rate = angle / ratio, rate / ratio
+    return mean + bend * mean * mean, mean_rate * (1.0 + 2.0 * bend * mean)
 
 
 class Steering(Description):

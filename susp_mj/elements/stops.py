@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from ..description import wrong
 from ..units import Length, Stiffness
-from .element import Element
+from .element import ForceElement
 from .law import Law, Parameters
 
 
@@ -21,7 +21,7 @@ def stop_force(deflection: float, speed: float, state: float, p: Parameters) -> 
     return 0.0
 
 
-class Stops(Element):
+class Stops(ForceElement):
     """Hard stops: ``F = k_hs (x - x_max)`` for x > x_max, ``F = k_hs (x - x_min)`` for x < x_min, else 0.
 
     The spring's own force is held at its value at the stop, so both add up to the thesis' spring with hard stops

@@ -12,9 +12,9 @@ from design.case import load_case, read_manoeuvre
 from design.results import carry_out
 from evaluation.numbers import NUMBERS
 from susp_mj import Plant, simulate
-from susp_mj.elements.car import CAR_NUMERIC, HEAD, WHEEL
 from susp_mj.elements.tyres.tir import load_tyre
 from susp_mj.errors import InputError, SimulationError
+from susp_mj.handling.block import CAR_NUMERIC, HEAD, WHEEL
 from vehicles.mjcf import build, write
 from vehicles.reading import FOLDER, load_vehicle
 
@@ -237,42 +237,47 @@ def test_a_circle_that_is_left_at_once_has_no_inner_wheel_load():
         assert number.note == "does not follow its circle until it turns"
 
 
+def place(name, *, wheel=False):
+    """Where a number of the car, or of its first wheel, stands in the block."""
+    return (WHEEL.fields[name][1] + HEAD.itemsize if wheel else HEAD.fields[name][1]) // 8
+
+
 @pytest.mark.parametrize(
-    ("place", "value", "line"),
+    ("at", "value", "line"),
     [
         (
-            HEAD.index("full_torque"),
+            place("full_torque"),
             1e9,
             "'full_torque' is not where the car's numbers say; leave places and lengths as they are",
         ),
         (
-            len(HEAD) + WHEEL.index("path"),
+            place("path", wheel=True),
             1e9,
             "'path' is not where the car's numbers say; leave places and lengths as they are",
         ),
         (
-            len(HEAD) + WHEEL.index("tyre_parameters"),
+            place("tyre_parameters", wheel=True),
             -5,
             "'tyre_parameters' is not where the car's numbers say; leave places",
         ),
-        (len(HEAD) + WHEEL.index("steering"), 9999, "'steering' of a wheel lies outside the model; keep the order"),
-        (HEAD.index("gears"), 99, "99 gears are not allowed; 1 to 12 are"),
-        (HEAD.index("wind_x"), 5000, "5000 is not allowed for 'wind_x'; the model has 34 actuators, 0 to 33"),
-        (HEAD.index("freedoms"), 3, "is written for 3 freedoms, the model has 16; add no joints, build the car anew"),
+        (place("steering", wheel=True), 9999, "'steering' of a wheel lies outside the model; keep the order"),
+        (place("gears"), 99, "99 gears are not allowed; 1 to 12 are"),
+        (place("wind_x"), 5000, "5000 is not allowed for 'wind_x'; the model has 34 actuators, 0 to 33"),
+        (place("freedoms"), 3, "is written for 3 freedoms, the model has 16; add no joints, build the car anew"),
         (
-            HEAD.index("engine_inertia"),
+            place("engine_inertia"),
             0,
             "radius of a wheel, engine_inertia and steering_ratio must be greater than 0",
         ),
     ],
 )
-def test_a_written_file_with_numbers_changed_by_hand(tmp_path, place, value, line):
+def test_a_written_file_with_numbers_changed_by_hand(tmp_path, at, value, line):
     path = write(load_vehicle("s_class"), "handling", tmp_path / "mine.xml")
     text = path.read_text(encoding="utf-8")
     found = re.search(rf'<numeric name="{CAR_NUMERIC}"[^>]*data="([^"]*)"', text)
     assert found is not None
     numbers = found[1].split()
-    numbers[place] = f"{value:g}"
+    numbers[at] = f"{value:g}"
     path.write_text(text[: found.start(1)] + " ".join(numbers) + text[found.end(1) :], encoding="utf-8")
     with pytest.raises(InputError) as caught:
         Plant.from_mjcf(path)

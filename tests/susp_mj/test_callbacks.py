@@ -350,7 +350,7 @@ sys.modules[spec.name] = module
 spec.loader.exec_module(module)
 law = Law("user_law_of_two_names", module.force)
 LAWS[law.number] = law
-compile_laws([law.number])
+compile_laws([(law.number, law.role)])
 """
 
 
@@ -372,7 +372,7 @@ def test_a_law_that_numba_cannot_compile_is_named():
     LAWS[law.number] = law
     try:
         with pytest.raises(CallbackError, match="user_spring_impossible"):
-            compiled.compile_laws([law.number])
+            compiled.compile_laws([(law.number, law.role)])
     finally:
         del LAWS[law.number]
 

@@ -16,13 +16,14 @@ from numba.extending import register_jitable
 from pydantic import TypeAdapter, ValidationError
 
 from susp_mj.elements import (
-    CONTACT_LAWS,
+    CONTACT,
     CONTACT_TYRES,
+    LAWS,
     AnyContactTyre,
-    ContactLaw,
     ContactTyre,
+    Law,
     LinearContactTyre,
-    register_contact_tyre,
+    register,
 )
 from susp_mj.elements.law import helpers
 from susp_mj.elements.tyres import slip
@@ -37,7 +38,7 @@ ANY = TypeAdapter(AnyContactTyre)
 
 def side_by_size(x, most):
     """``x/sqrt(1 + (x/most)²)``: a helper of the law below."""
-    return x / math.sqrt(1.0 + (x / most) ** 2)
+    return x / math.hypot(1.0, x / most)
 
 
 def brush_contact(kappa, tan_alpha, camber, load, rolling, lateral, friction, p, out):
@@ -58,7 +59,7 @@ def foreign_contact(kappa, tan_alpha, camber, load, rolling, lateral, friction, 
 class OwnTyre(ContactTyre):
     """A user's own."""
 
-    law: ClassVar[ContactLaw] = ContactLaw("test_own_tyre", brush_contact)
+    law: ClassVar[Law] = Law("test_own_tyre", brush_contact, role=CONTACT)
     kind: Literal["own"] = "own"
     friction: float = 1.1
 
@@ -79,7 +80,7 @@ LINEAR = LinearContactTyre(
     longitudinal_relaxation=0.2,
     lateral_relaxation=0.5,
 )
-register_contact_tyre(OwnTyre)
+register(OwnTyre)
 EXAMPLES = {
     "linear": LINEAR,
     "magic_formula": load_tyre(TIR / "pac2002_245_40R18.tir"),
@@ -93,8 +94,7 @@ loads, speeds = st.floats(1.0, 15000.0), st.floats(-80, 80)
 
 def test_every_kind_has_an_example():
     assert set(EXAMPLES) == set(CONTACT_TYRES)
-    assert {tyre.law for tyre in CONTACT_TYRES.values()} == set(CONTACT_LAWS.values())
-    assert all(law.number == number for number, law in CONTACT_LAWS.items())
+    assert {tyre.law for tyre in CONTACT_TYRES.values()} == {law for law in LAWS.values() if law.role == CONTACT}
 
 
 @every
@@ -201,10 +201,10 @@ def test_continuous_in_slip_and_camber(kind):
 @every
 def test_compiled_it_is_the_same(kind):
     tyre = EXAMPLES[kind]
-    for helper in helpers(tyre.law.contact).values():
+    for helper in helpers(tyre.law.function).values():
         register_jitable(helper)
     pointer = numba.types.CPointer(numba.float64)
-    compiled = numba.cfunc(numba.void(*[numba.float64] * 7, pointer, pointer))(tyre.law.contact)
+    compiled = numba.cfunc(numba.void(*[numba.float64] * 7, pointer, pointer))(tyre.law.function)
     p, out = (ctypes.c_double * len(tyre.parameters()))(*tyre.parameters()), (ctypes.c_double * 8)(*[9.0] * 8)
     rng = np.random.default_rng(5)
     for x in [np.zeros(7), *rng.uniform(-1, 1, (100, 7)) * [1.6, 3.0, 0.2, 9000, 40, 10, 1.0]]:
@@ -300,23 +300,28 @@ def test_what_cannot_be_registered():
         pass
 
     class Unnamed(ContactTyre):
-        law: ClassVar[ContactLaw] = ContactLaw("unnamed", brush_contact)
+        law: ClassVar[Law] = Law("unnamed", brush_contact, role=CONTACT)
 
         def parameters(self) -> tuple[float, ...]:
             return ()
 
     class Foreign(ContactTyre):
-        law: ClassVar[ContactLaw] = ContactLaw("foreign", foreign_contact)
+        law: ClassVar[Law] = Law("foreign", foreign_contact, role=CONTACT)
         kind: Literal["foreign"] = "foreign"
 
         def parameters(self) -> tuple[float, ...]:
             return ()
 
+    class Wrong(Foreign):
+        law: ClassVar[Law] = Law("wrong", brush_contact)
+
     with pytest.raises(CallbackError, match="kind 'own' of Another is taken by OwnTyre"):
-        register_contact_tyre(Another)
+        register(Another)
     with pytest.raises(CallbackError, match="needs a default for 'kind'"):
-        register_contact_tyre(Unnamed)
+        register(Unnamed)
     with pytest.raises(CallbackError, match="may only call functions of its own module"):
-        register_contact_tyre(Foreign)
-    register_contact_tyre(OwnTyre)
+        register(Foreign)
+    with pytest.raises(CallbackError, match="has role 'force'; that of Wrong needs role 'contact'"):
+        register(Wrong)
+    register(OwnTyre)
     assert set(CONTACT_TYRES) == set(EXAMPLES)

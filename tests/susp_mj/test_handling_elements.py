@@ -197,8 +197,8 @@ LINES = [
     ({"aerodynamics.drag": -0.1}, "aerodynamics.drag: -0.1 is not allowed; it must be at least 0.0"),
     (
         {"aerodynamics.lift": 0.1},
-        "aerodynamics.lift: unknown key; did you mean 'lift_rear'? choose area, drag, lift_front, lift_rear, side, "
-        "yaw, density",
+        "aerodynamics.lift: unknown key; did you mean 'lift_rear'? choose kind, area, drag, lift_front, lift_rear, "
+        "side, yaw, density",
     ),
     ({"aerodynamics.side": "2 1/m"}, "aerodynamics.side: '2 1/m' has the wrong unit; expected one like 1/rad"),
     ({"front.wheel_inertia": 0}, "front.wheel_inertia: 0.0 is not allowed; it must be greater than 0.0"),

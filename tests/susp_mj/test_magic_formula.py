@@ -300,8 +300,8 @@ def test_slip_relaxes_over_its_length():
     """At constant speed the slip has reached ``1 - 1/e`` after rolling one relaxation length."""
     s, speed, sigma, step = 0.0, 10.0, 0.5, 1e-5
     for _ in range(round(sigma / speed / step)):
-        s += step * slip.slip_rate(s, 0.3, speed, sigma, 1.5)
-    assert s == pytest.approx(0.03 * (1 - math.exp(-1)), rel=1e-3)
+        s += step * slip.slip_rate(s, 0.003, speed, sigma, 1.5)
+    assert s == pytest.approx(0.0003 * (1 - math.exp(-1)), rel=1e-3)
 
 
 def test_slip_at_standstill_is_a_spring():

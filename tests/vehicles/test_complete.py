@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from susp_mj.elements.car import HEAD, WHEEL, table, tables
 
 from susp_mj.elements import GRAVITY
-from susp_mj.elements.car import HEAD, WHEEL, table, tables
 from vehicles import Vehicle, load_vehicle
 from vehicles.complete import CompleteCar, LoadedCar
 from vehicles.mjcf import HANDLING, MODELS, build

@@ -9,12 +9,26 @@ from typing import ClassVar, Literal
 import mujoco
 import numpy as np
 import pytest
+from numba import njit
 
-from susp_mj.driver import Driver, Path
-from susp_mj.elements import CONTACT_TYRES, ContactLaw, ContactTyre, register_contact_tyre
-from susp_mj.elements.car import CAR_NUMERIC, HEAD, SIGNALS, WHEEL, car_block, table, table_of_tables
+from susp_mj.compiled.memory import record as compiled_record
+from susp_mj.elements import CONTACT, CONTACT_TYRES, ContactTyre, Law, Path, PreviewDriver, register
 from susp_mj.errors import InputError, SimulationError
 from susp_mj.features import Patch
+from susp_mj.handling.block import (
+    CAR_NUMERIC,
+    CAR_SIGNALS,
+    HEAD,
+    SIGNALS,
+    WHEEL,
+    WHEEL_SIGNALS,
+    WHEEL_STATE,
+    CarNumbers,
+    car_block,
+    names_of,
+    table,
+    table_of_tables,
+)
 from susp_mj.plant import Plant
 from susp_mj.roads import Road, cosine_bump
 from susp_mj.simulation import simulate
@@ -55,25 +69,33 @@ def rig():
 # ---- memory
 
 
-def test_the_compiled_car_reads_every_number_where_it_is_written():
-    from susp_mj.compiled import places
-
-    for names in (HEAD, WHEEL):
-        for place, name in enumerate(names):
-            if not name.startswith("gear_") or name == "gear_1":
-                assert getattr(places, name.upper()) == place, name
+@pytest.mark.parametrize("record", [HEAD, WHEEL, CAR_SIGNALS, WHEEL_SIGNALS, WHEEL_STATE])
+def test_compiled_code_reads_and_writes_every_number_by_its_name(record):
+    at = compiled_record(record)
+    numbers, names = np.arange(1.0, record.itemsize // 8 + 1), names_of(record)
+    lines = [f"    r.{name}[1] = 2 * r.{name}[1]" if name == "ratios" else f"    r.{name} *= 2" for name in names]
+    scope: dict = {"at": at}
+    exec("def double(address):\n    r = at(address)\n" + "\n".join(lines), scope)
+    njit(scope["double"])(np.uint64(numbers.ctypes.data))
+    doubled = numbers.view(record)[0]
+    for name in names:
+        place = record.fields[name][1] // 8
+        if name == "ratios":
+            assert doubled[name].tolist() == [place + 1, 2 * (place + 2), *range(place + 3, place + 13)]
+        else:
+            assert doubled[name] == 2 * (place + 1)
 
 
 def test_the_block_refuses_a_name_that_it_does_not_have():
-    with pytest.raises(KeyError, match="colour"):
+    with pytest.raises(ValueError, match="colour"):
         car_block({"colour": 1.0}, [{}] * 4, [])
 
 
 def test_equal_tables_share_their_place_in_the_block():
     numbers = np.arange(7.0)
     block = car_block({}, [{}] * 4, [("path", i, numbers) for i in range(4)])
-    assert len(block) == len(HEAD) + 4 * len(WHEEL) + 7
-    places = [block[len(HEAD) + i * len(WHEEL) + WHEEL.index("path")] for i in range(4)]
+    assert len(block) == CarNumbers.size() + 7
+    places = CarNumbers(block).wheels.path
     assert len(set(places)) == 1
     np.testing.assert_array_equal(block[int(places[0]) :], numbers)
 
@@ -81,7 +103,7 @@ def test_equal_tables_share_their_place_in_the_block():
 @pytest.mark.parametrize("x", [-0.13, -0.12, -0.031, 0.0, 0.0499, 0.12, 0.2])
 def test_tables_give_values_and_slopes_of_the_curves(x):
     """A parabola and a cubic are met exactly inside; outside both go straight on."""
-    from susp_mj.compiled import lookup
+    from susp_mj.compiled.handling import lookup
 
     z = np.linspace(-0.12, 0.12, 9)
     numbers = table(z, 0.2 * z - 1.5 * z**2, z**3, smooth=True)
@@ -136,7 +158,7 @@ def test_the_car_stands_in_a_viewer_that_knows_no_manoeuvre(saloon):
     """With the callbacks installed and nothing attached the tyres carry the car."""
     from susp_mj.compiled import install
 
-    install(saloon.laws, saloon.contacts)
+    install(saloon.laws)
     data = mujoco.MjData(saloon.model)
     for _ in range(2000):
         mujoco.mj_step(saloon.model, data)
@@ -317,7 +339,7 @@ def test_four_post_inputs_drive_a_standing_car(saloon):
 
 
 def test_the_driver_follows_a_circle_and_a_lane_change(saloon):
-    circle = Driver(Path(radius=60.0), understeer=0.0025)
+    circle = PreviewDriver(Path(radius=60.0), understeer=0.0025)
     run = simulate(saloon, Drive(duration=12.0, speed=14.0, steerer=circle))
     assert abs(run["path_deviation"][-1]) < 0.3
     radius = math.hypot(run["position_x"][-1], run["position_y"][-1] - 60.0)
@@ -325,7 +347,7 @@ def test_the_driver_follows_a_circle_and_a_lane_change(saloon):
     assert run["lateral_acceleration"][-1] == pytest.approx(run["speed"][-1] ** 2 / radius, rel=0.02)
     x = np.linspace(0.0, 120.0, 241)
     y = 3.5 * (1 - np.cos(np.pi * np.clip((x - 30) / 30, 0, 1))) / 2
-    run = simulate(saloon, Drive(duration=6.0, speed=20.0, steerer=Driver(Path(x=x, y=y), understeer=0.0025)))
+    run = simulate(saloon, Drive(duration=6.0, speed=20.0, steerer=PreviewDriver(Path(x=x, y=y), understeer=0.0025)))
     assert run["position_y"][-1] == pytest.approx(3.5, abs=0.1)
     assert np.abs(run["path_deviation"]).max() < 0.6
 
@@ -468,7 +490,7 @@ def saturating_contact(kappa, tan_alpha, camber, load, rolling, lateral, frictio
 class SaturatingTyre(ContactTyre):
     """A tyre of the user's own."""
 
-    law: ClassVar[ContactLaw] = ContactLaw("saturating_contact_of_the_tests", saturating_contact)
+    law: ClassVar[Law] = Law("saturating_contact_of_the_tests", saturating_contact, role=CONTACT)
     kind: Literal["saturating_of_the_tests"] = "saturating_of_the_tests"
     grip: float = 1.0
 
@@ -487,7 +509,7 @@ class SaturatingTyre(ContactTyre):
 )
 def test_the_car_drives_on_every_kind_of_tyre(tyre, monkeypatch):
     monkeypatch.setitem(CONTACT_TYRES, "saturating_of_the_tests", SaturatingTyre)  # taken out again afterwards
-    register_contact_tyre(SaturatingTyre)
+    register(SaturatingTyre)
     car = load_vehicle("bmw_320i", overrides={"front.handling_tyre": tyre, "rear.handling_tyre": tyre})
     run = simulate(
         build(car, HANDLING), Drive(duration=4.0, speed=20.0, inputs={"steering_wheel_angle": [(0.5, 0.0), (0.8, 1.0)]})

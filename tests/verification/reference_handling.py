@@ -132,11 +132,11 @@ class Corner:
 
     def __init__(self, axle: Any, side: str) -> None:
         parts = [axle.spring, axle.spring.stops, *([axle.friction] if axle.friction is not None else [])]
-        self.parts = [(part.active_law.force, part.parameters()) for part in parts]
+        self.parts = [(part.active_law.function, part.parameters()) for part in parts]
         law = axle.damper.active_law
-        self.damper, self.rod, self.damping = law.force, law.state_rate, axle.damper.parameters()
+        self.damper, self.rod, self.damping = law.function, law.state_rate, axle.damper.parameters()
         self.tyre = axle.handling_tyre.mounted(side)
-        self.contact, self.numbers = self.tyre.law.contact, self.tyre.parameters()
+        self.contact, self.numbers = self.tyre.law.function, self.tyre.parameters()
 
     def suspension(self, z: float, speed: float, rod: float) -> tuple[float, float]:
         force = sum(law(z, speed, 0.0, p) for law, p in self.parts) + self.damper(z, speed, rod, self.damping)

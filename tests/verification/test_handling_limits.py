@@ -229,7 +229,7 @@ def test_a_drive_shaft_turns_the_wheel_and_a_brake_the_carrier_too():
     vehicle = load_vehicle("s_class", "configuration_4")
     plant = build(vehicle, HANDLING)
     model = plant.model
-    install(plant.laws, plant.contacts)
+    install(plant.laws)
 
     def applied(engine: float, brake: float) -> np.ndarray:
         data = mujoco.MjData(model)

@@ -63,12 +63,12 @@ def test_closed_form(spring):
 
 def test_compiled_is_plain_python(spring):
     law, parameters = spring.active_law, spring.parameters()
-    compiled_laws.compile_laws([law.number])
+    compiled_laws.compile_laws([(law.number, law.role)])
     prototype = ctypes.CFUNCTYPE(ctypes.c_double, *[ctypes.c_double] * 3, ctypes.POINTER(ctypes.c_double))
-    machine = prototype(int(compiled_laws.FORCE_TABLE[law.number]))
+    machine = prototype(int(compiled_laws.TABLES["force"][law.number]))
     memory = (ctypes.c_double * len(parameters))(*parameters)
     for x in np.linspace(-0.15, 0.15, 101):
-        assert machine(x, 0.0, 0.0, memory) == pytest.approx(law.force(x, 0.0, 0.0, parameters), rel=1e-15)
+        assert machine(x, 0.0, 0.0, memory) == pytest.approx(law.function(x, 0.0, 0.0, parameters), rel=1e-15)
 
 
 def test_over_the_bump_against_the_stiff_solver(example):

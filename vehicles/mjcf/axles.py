@@ -10,7 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from susp_mj.elements import AntiRollBar, Element
+from susp_mj.elements import AntiRollBar, ForceElement
 from susp_mj.names import channel_name
 
 from ..complete import LoadedAxle
@@ -72,10 +72,10 @@ def add_axle(
             _massless_wheel(builder, position, corner)
 
 
-def _elements(corner: Corner) -> dict[str, Element]:
+def _elements(corner: Corner) -> dict[str, ForceElement]:
     """Spring, stops, damper, linkage friction and bar of a corner, by part; the bar's rate is that at the wheel."""
     axle = corner.axle.values
-    elements: dict[str, Element] = {"spring": axle.spring, "stop": axle.spring.stops, "damper": axle.damper}
+    elements: dict[str, ForceElement] = {"spring": axle.spring, "stop": axle.spring.stops, "damper": axle.damper}
     if axle.friction is not None:
         elements["friction"] = axle.friction
     if corner.partner is not None and axle.anti_roll_bar is not None:

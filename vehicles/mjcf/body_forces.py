@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from susp_mj.elements import GRAVITY, Overturning, Rig
+from susp_mj.elements import GRAVITY, Overturning, SpringDamper
 from susp_mj.errors import InputError
 
 from .axles import Corner, height_at
@@ -72,9 +72,8 @@ def add_rig(builder: ModelBuilder, rig: str, position: dict[str, Form], mass: Ma
     """A servo on the body's roll whose target is an input."""
     if rig != "roll" or "roll" not in position:
         raise InputError(f"no rig '{rig}' for this model; the rig 'roll' needs a model with roll", key="rig")
-    stiffness = mass.roll_inertia * _RIG_FREQUENCY**2
-    builder.force(
-        "roll_rig", Rig(stiffness=stiffness, damping=1.4 * mass.roll_inertia * _RIG_FREQUENCY), position["roll"]
-    )
+    damping = 1.4 * mass.roll_inertia * _RIG_FREQUENCY
+    servo = SpringDamper(stiffness=mass.roll_inertia * _RIG_FREQUENCY**2, damping=damping)
+    builder.force("roll_rig", servo, position["roll"])
     builder.drive("roll_target", "roll_rig", -1.0)
     builder.output("rig_moment", "", ("actuator_force", "roll_rig", 1.0))

@@ -4,7 +4,7 @@ slip.
 MuJoCo's tree is the free joint of the chassis, per wheel a vertical slide (the travel), for the front wheels a hinge
 (the steering, elastic against the rack), and the spin. Springs, dampers, stops, friction and bars are the same user
 actuators along the travel as in the oscillation models. Everything else (tyres, wheel paths, power train, brakes, air,
-driver) is carried out by `susp_mj.compiled.car` from the numbers that this module writes into the file's custom
+driver) is carried out by `susp_mj.compiled.handling` from the numbers that this module writes into the file's custom
 numeric.
 """
 
@@ -16,14 +16,15 @@ from typing import Any
 
 import mujoco
 
-from susp_mj.elements import Rig, Steering
-from susp_mj.elements.car import (
+from susp_mj.elements import SpringDamper, Steering
+from susp_mj.errors import InputError
+from susp_mj.handling.block import (
     CAR_SIGNALS,
     RIG_CONTROLS,
     WHEEL_SIGNALS,
     WHEEL_STATES,
+    names_of,
 )
-from susp_mj.errors import InputError
 from susp_mj.meaning import Meaning
 from susp_mj.names import CORNERS, QUANTITIES
 
@@ -155,7 +156,7 @@ def _add_forces(builder: ModelBuilder, steering: Steering, wheel: Wheel) -> None
     if damping > 0:
         builder.resolve(f"{key}.vertical_damping", damping, "N s/m", mass / damping)
     if wheel.front:
-        spring = Rig(stiffness=steering.stiffness, damping=steering.damping)
+        spring = SpringDamper(stiffness=steering.stiffness, damping=steering.damping)
         builder.force(corner.name("steering"), spring, Form({corner.name("steer"): 1.0}))
         seconds = math.sqrt(steering.knuckle_inertia / steering.stiffness)
         builder.resolve("steering.stiffness", steering.stiffness, "N m/rad", seconds, power=2.0)
@@ -182,11 +183,11 @@ def _add_controls(builder: ModelBuilder, wheels: Sequence[Wheel], rig: str | Non
 
 def _outputs(builder: ModelBuilder, wheels: Sequence[Wheel], rig: str | None) -> None:
     """Channels that the compiled car writes."""
-    for signal in CAR_SIGNALS:
+    for signal in names_of(CAR_SIGNALS):
         drives = rig is None or signal == "steering_wheel_angle"
         if signal in QUANTITIES and signal != "speed" and drives:
             builder.output(signal, "", ("signal", signal, 1.0))
     for wheel in wheels:
-        for signal in WHEEL_SIGNALS:
+        for signal in names_of(WHEEL_SIGNALS):
             if signal in QUANTITIES:
                 builder.output(signal, wheel.corner.station, ("signal", wheel.corner.name(signal), 1.0))

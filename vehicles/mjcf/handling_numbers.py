@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from susp_mj.elements import Kinematics, Powertrain
-from susp_mj.elements.car import CONTROLS, MOST_GEARS, RIG_CONTROLS, car_block, table, table_of_tables, tables
-from susp_mj.elements.tyres.contact import AnyContactTyre
+from susp_mj.elements import ContactTyre, Kinematics
 from susp_mj.errors import InputError
+from susp_mj.handling.block import CONTROLS, MOST_GEARS, RIG_CONTROLS, car_block, table, table_of_tables, tables
 
 from ..complete import CompleteAxle, CompleteCar
 from ..vehicle import Body
@@ -36,7 +35,7 @@ class Wheel:
 
     corner: Corner
     axle: CompleteAxle
-    tyre: AnyContactTyre
+    tyre: ContactTyre
 
     @property
     def front(self) -> bool:
@@ -59,12 +58,12 @@ def block(
     head |= {"freedoms": float(model.nv)}
     head |= {name: float(model.actuator(name).id) if name in controls else -1.0 for name in (*CONTROLS, *RIG_CONTROLS)}
     places = [_wheel_numbers(model, car, wheel, rig) for wheel in wheels]
-    return car_block(head, places, [*_engine_tables(car.powertrain), *_wheel_tables(car, wheels)])
+    return car_block(head, places, [*_car_tables(car), *_wheel_tables(car, wheels)])
 
 
-def _head(car: CompleteCar) -> dict[str, float]:
+def _head(car: CompleteCar) -> dict[str, float | tuple[float, ...]]:
     """Numbers of the car as a whole."""
-    steering, train, air = car.steering, car.powertrain, car.aerodynamics
+    steering, train = car.steering, car.powertrain
     if len(train.gears) > MOST_GEARS:
         raise InputError(
             f"{len(train.gears)} gears are not allowed; at most {MOST_GEARS}",
@@ -79,12 +78,8 @@ def _head(car: CompleteCar) -> dict[str, float]:
         "ground_z": -car.cg_height,
         "control_gain": _CONTROL_GAIN * mass,
         "control_integral": _CONTROL_INTEGRAL * mass,
-        "air_pressure": air.density * air.area / 2,
-        "drag": air.drag,
-        "lift_front": air.lift_front,
-        "lift_rear": air.lift_rear,
-        "side_force": air.side,
-        "yaw_moment": air.yaw,
+        "brake_law": float(car.brakes.law.number),
+        "air_law": float(car.aerodynamics.law.number),
         "air_x": -car.wheelbase / 2 - car.body.cg[0],
         "engine_inertia": train.inertia,
         "idle_speed": train.idle_speed,
@@ -100,7 +95,7 @@ def _head(car: CompleteCar) -> dict[str, float]:
         "shift_time": train.shift_time,
         "engine_limit": train.speed[-1],
         "gears": float(len(train.gears)),
-        **{f"gear_{i}": ratio for i, ratio in enumerate(train.gears, 1)},
+        "ratios": train.gears,
         "design_x": car.body.cg[0],
         "design_y": car.body.cg[1],
         "design_z": car.cg_height,
@@ -120,11 +115,11 @@ def _rig_servo(body: Body) -> dict[str, float]:
 
 
 def _wheel_numbers(model: mujoco.MjModel, car: CompleteCar, wheel: Wheel, rig: str | None) -> dict[str, float]:
-    corner, tyre, steering, brakes = wheel.corner, wheel.tyre, car.steering, car.brakes
+    corner, tyre, steering = wheel.corner, wheel.tyre, car.steering
     travel, spin = model.joint(corner.name("travel")), model.joint(corner.name("spin"))
-    share = brakes.front_share if wheel.front else 1 - brakes.front_share
     numbers = {
         "side": float(corner.side),
+        "front": float(wheel.front),
         "x": corner.x,
         "y": corner.y,
         "z": -car.body.cg[2],
@@ -133,7 +128,6 @@ def _wheel_numbers(model: mujoco.MjModel, car: CompleteCar, wheel: Wheel, rig: s
         "spin_freedom": float(spin.dofadr[0]),
         "tyre": float(model.actuator(corner.name("tyre")).id),
         "drive_share": float((car.powertrain.driven == "front") == wheel.front),
-        "brake_torque": brakes.torque * share / 2,
         "tyre_law": float(tyre.law.number),
         "radius": tyre.radius,
         "stiffness": tyre.vertical_stiffness,
@@ -154,10 +148,14 @@ def _wheel_numbers(model: mujoco.MjModel, car: CompleteCar, wheel: Wheel, rig: s
     return numbers
 
 
-def _engine_tables(train: Powertrain) -> list[tuple[str, int, np.ndarray]]:
-    """Torques over the engine's speed."""
+def _car_tables(car: CompleteCar) -> list[tuple[str, int, np.ndarray]]:
+    """Torques over the engine's speed, parameters of brakes and air."""
+    train, laws = car.powertrain, {"brake_parameters": car.brakes, "air_parameters": car.aerodynamics}
     curves = {"full_torque": train.full_torque, "drag_torque": train.drag_torque}
-    return [(name, -1, table(train.speed, torque, smooth=False, count=65)) for name, torque in curves.items()]
+    return [
+        *((name, -1, table(train.speed, torque, smooth=False, count=65)) for name, torque in curves.items()),
+        *((name, -1, np.array(element.parameters())) for name, element in laws.items()),
+    ]
 
 
 def _wheel_tables(car: CompleteCar, wheels: Sequence[Wheel]) -> list[tuple[str, int, np.ndarray]]:

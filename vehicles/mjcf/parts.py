@@ -14,9 +14,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from susp_mj.elements import GRAVITY, Damper, Element
-from susp_mj.elements.car import CAR_NUMERIC, SIGNALS
+from susp_mj.elements import GRAVITY, Damper, ForceElement
 from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
+from susp_mj.handling.block import CAR_NUMERIC, SIGNALS
 from susp_mj.meaning import Input, Meaning, Output, TimeConstant, Travel
 from susp_mj.names import channel_name
 from susp_mj.plant import compiled
@@ -130,7 +130,7 @@ class ModelBuilder:
         return Form({}, {station: 1.0})
 
     def force(
-        self, name: str, element: Element, form: Form, partner: Partner | None = None, factor: float = 1.0
+        self, name: str, element: ForceElement, form: Form, partner: Partner | None = None, factor: float = 1.0
     ) -> None:
         """Let an element act along a form: a positive force opposes the form's growth.
 

@@ -8,11 +8,10 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 
 from ...description import Description, wrong
-from ...errors import CallbackError, InputError
+from ...errors import InputError
 from ...units import Dimensionless, Stiffness
 from ..element import chosen_kind
-from ..law import helpers
-from .contact_tyre import ContactForces, ContactLaw, ContactTyre, VerticalDamping
+from .contact_tyre import ContactTyre, VerticalDamping
 from .linear import LinearContactTyre
 from .magic_formula import MagicFormula, MagicFormulaTyre
 from .magic_formula_61 import MagicFormula61Tyre
@@ -24,7 +23,6 @@ CONTACT_TYRES: dict[str, type[ContactTyre]] = {
     "magic_formula_61": MagicFormula61Tyre,
     "linear": LinearContactTyre,
 }
-CONTACT_LAWS: dict[int, ContactLaw] = {tyre.law.number: tyre.law for tyre in CONTACT_TYRES.values()}
 
 
 class TyreFile(Description):
@@ -65,29 +63,6 @@ class TyreFile(Description):
         return type(tyre).model_validate({**data, **own, "scaling": {**data["scaling"], **self.scaling}})
 
 
-def register_contact_tyre(tyre: type[ContactTyre]) -> None:
-    """Make a tyre of your own available by its `kind`, in files and in the compiled car.
-
-    Args:
-        tyre: subclass of ContactTyre with `kind` as a `Literal`, `law` and `parameters`.
-
-    Raises:
-        CallbackError: its kind or the number of its law is taken by something else, or the law calls functions of
-            another module.
-    """
-    kind = tyre.model_fields["kind"].default
-    if not isinstance(kind, str):
-        raise CallbackError(f"{tyre.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")
-    if CONTACT_TYRES.get(kind, tyre) is not tyre:
-        raise CallbackError(f"kind '{kind}' of {tyre.__name__} is taken by {CONTACT_TYRES[kind].__name__}")
-    law = tyre.law
-    if CONTACT_LAWS.get(law.number, law) != law:
-        raise CallbackError(f"law '{law.name}' has the same number as '{CONTACT_LAWS[law.number].name}'; rename it")
-    helpers(law.contact)
-    CONTACT_TYRES[kind] = tyre
-    CONTACT_LAWS[law.number] = law
-
-
 def _chosen(data: Any) -> Any:
     """A tyre by its kind; of a Magic Formula without its sections, the file is read."""
     if not isinstance(data, dict):
@@ -99,14 +74,3 @@ def _chosen(data: Any) -> Any:
 
 
 AnyContactTyre = Annotated[ContactTyre, BeforeValidator(_chosen)]
-
-__all__ = [
-    "CONTACT_LAWS",
-    "CONTACT_TYRES",
-    "AnyContactTyre",
-    "ContactForces",
-    "ContactLaw",
-    "ContactTyre",
-    "TyreFile",
-    "register_contact_tyre",
-]

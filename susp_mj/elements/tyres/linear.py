@@ -6,8 +6,8 @@ from collections.abc import MutableSequence
 from typing import Annotated, ClassVar, Literal
 
 from ...units import NonNegativeLength, PositiveForce, Quantity
-from ..law import Parameters
-from .contact_tyre import ContactLaw, ContactTyre
+from ..law import Law, Parameters
+from .contact_tyre import CONTACT, ContactTyre
 from .slip import SMALLEST_RELAXATION
 
 CorneringStiffness = Annotated[float, Quantity("N/rad", ge=0)]
@@ -63,7 +63,7 @@ class LinearContactTyre(ContactTyre):
     Source: [pacejka2012], section 1.2 and chapter 7 (relaxation).
     """
 
-    law: ClassVar[ContactLaw] = ContactLaw("linear_contact", linear_contact)
+    law: ClassVar[Law] = Law("linear_contact", linear_contact, role=CONTACT)
 
     kind: Literal["linear"] = "linear"
     nominal_load: PositiveForce

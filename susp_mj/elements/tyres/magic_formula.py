@@ -10,8 +10,9 @@ from pydantic import model_validator
 
 from ...description import Description, wrong
 from ...units import Dimensionless, Force, PositiveForce, PositiveSpeed, Quantity
+from ..law import Law
 from . import magic_formula_law as formula
-from .contact_tyre import ContactLaw, ContactTyre, Side
+from .contact_tyre import CONTACT, ContactTyre, Side
 from .magic_formula_coefficients import Aligning, Lateral, Longitudinal, Overturning, Rolling, Scaling
 from .slip import SMALLEST_RELAXATION
 
@@ -143,7 +144,7 @@ class MagicFormulaTyre(MagicFormula):
     Sources: [msc2008], [pacejka2012] section 4.3.2.
     """
 
-    law: ClassVar[ContactLaw] = ContactLaw("magic_formula_52", formula.magic_formula_contact)
+    law: ClassVar[Law] = Law("magic_formula_52", formula.magic_formula_contact, role=CONTACT)
 
     kind: Literal["magic_formula"] = "magic_formula"
     vertical: Vertical

@@ -10,8 +10,9 @@ from pydantic import model_validator
 
 from ...description import wrong
 from ...units import Quantity
+from ..law import Law
 from . import magic_formula_61_law as formula
-from .contact_tyre import ContactLaw
+from .contact_tyre import CONTACT
 from .magic_formula import MagicFormula, Ranges
 from .magic_formula_61_coefficients import (
     Aligning61,
@@ -61,7 +62,7 @@ class MagicFormula61Tyre(MagicFormula):
     Sources: [besselink2010], [pacejka2012] section 4.3.2.
     """
 
-    law: ClassVar[ContactLaw] = ContactLaw("magic_formula_61", formula.contact)
+    law: ClassVar[Law] = Law("magic_formula_61", formula.contact, role=CONTACT)
 
     kind: Literal["magic_formula_61"] = "magic_formula_61"
     operation: Operation

@@ -129,7 +129,7 @@ def contact(  # noqa: PLR0915, C901 - one long formula, in the order in which th
     p: Parameters,
     out: MutableSequence[float],
 ) -> None:
-    """The formulas above as a contact law (see `contact_tyre.ContactLaw`); the road's friction works as in MF 5.2.
+    """The formulas above as a contact law (see `contact_tyre.CONTACT`); the road's friction works as in MF 5.2.
 
     Names end in what they belong to: x, y the forces, z the side force without camber, a, k the weights over alpha and
     kappa, t the trail, r the residual moment.

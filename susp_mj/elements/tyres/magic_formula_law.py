@@ -328,7 +328,7 @@ def magic_formula_contact(  # noqa: PLR0915, C901 - one long formula, in the ord
     p: Parameters,
     out: MutableSequence[float],
 ) -> None:
-    """All of the functions above in one, as a contact law (see `contact_tyre.ContactLaw`).
+    """All of the functions above in one, as a contact law (see `contact_tyre.CONTACT`).
 
     The road's friction f acts as if LMUX and LMUY were f times what they are: it multiplies the friction, the vertical
     shifts and the residual moment and divides the stiffness factors of the moment; the slip stiffnesses stay. The

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Literal
 
 from ...units import NonNegativeForce, Stiffness
-from ..element import Element, chosen_from
+from ..element import ForceElement, chosen_from
 from ..law import Law, Parameters
 
 
@@ -14,7 +14,7 @@ def tyre_spring_force(deflection: float, speed: float, state: float, p: Paramete
     return max(0.0, p[0] + p[1] * deflection)
 
 
-class Tyre(Element):
+class Tyre(ForceElement):
     """A tyre as a vertical force between road and wheel.
 
     Attributes:

@@ -1,10 +1,10 @@
-"""Tables of `elements.car.table`, for compiled code."""
+"""Tables of `handling.block.table`, for compiled code."""
 
 from __future__ import annotations
 
 from numba import types
 
-from .memory import doubles, plain
+from ..memory import doubles, plain
 
 
 @plain
@@ -55,9 +55,3 @@ def both_between(address, x, s):
     v, m, w, n = both_looked_up(doubles(first + types.uint64(8 * stride * j)), x)
     v1, m1, w1, n1 = both_looked_up(doubles(first + types.uint64(8 * stride * (j + 1))), x)
     return v + share * (v1 - v), m + share * (m1 - m), w + share * (w1 - w), n + share * (n1 - n)
-
-
-@plain
-def place_of(base, number):
-    """Address of what lies at a place in the block."""
-    return base + types.uint64(8 * int(number))

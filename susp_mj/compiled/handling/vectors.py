@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from .memory import plain
+from ..memory import plain
 
 
 @plain
