@@ -50,9 +50,8 @@ def _deflection(model, data, actuator, own):
     return x, v
 
 
-@cfunc(types.float64(MODEL, DATA, types.intc), cache=True, **OPTIONS)
-def _force(model_pointer, data_pointer, actuator):
-    model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
+@plain
+def _element_force(model, data, actuator):
     stride = model.nuser_actuator
     if stride < ACTUATOR_HEADER:
         return 0.0
@@ -113,19 +112,22 @@ def _inputs(model, data, userdata):
             userdata[USERDATA_HEADER + actuator] += factor * rate
 
 
-def _with_helpers(sources: int) -> tuple[Any, Any]:
-    """Callbacks that call code of other modules; `sources` is part of them, so that the disk cache never gives an
-    outdated one."""
+def _callbacks(sources: int) -> tuple[Any, Any, Any]:
+    """Force, state rate and control; `sources` is part of them, so that the disk cache never gives outdated code of
+    another file."""
+
+    def force(model_pointer, data_pointer, actuator):
+        if sources == 0:
+            return 0.0
+        return _element_force(carray(model_pointer, 1)[0], carray(data_pointer, 1)[0], actuator)
 
     def state_rate(model_pointer, data_pointer, actuator):
         model, data = carray(model_pointer, 1)[0], carray(data_pointer, 1)[0]
         state_address = ints(model.actuator_actadr)[actuator]
         if model.nuser_actuator < ACTUATOR_HEADER or state_address < 0 or sources == 0:
             return 0.0
-        if (
-            is_car(model)
-            and doubles(model.actuator_user + types.uint64(8 * model.nuser_actuator * actuator))[0] != ACTUATOR_MARK
-        ):
+        first = doubles(model.actuator_user + types.uint64(8 * model.nuser_actuator * actuator))[0]
+        if is_car(model) and first != ACTUATOR_MARK:
             return car_state_rates(model, data, actuator)
         return _element_state_rate(model, data, actuator, state_address)
 
@@ -139,15 +141,16 @@ def _with_helpers(sources: int) -> tuple[Any, Any]:
             _inputs(model, data, userdata)
         if is_car(model):
             nothing = types.uint64(0)
-            car_forces(
-                model, data, bits(userdata[2]) if running else nothing, bits(userdata[3]) if running else nothing
-            )
+            road, driver = (bits(userdata[2]), bits(userdata[3])) if running else (nothing, nothing)
+            car_forces(model, data, road, driver)
 
-    rate = cfunc(types.float64(MODEL, DATA, types.intc), cache=True, **OPTIONS)(state_rate)
-    return rate, cfunc(types.void(MODEL, DATA), cache=True, **OPTIONS)(control)
+    of_actuator = types.float64(MODEL, DATA, types.intc)
+    signatures = ((force, of_actuator), (state_rate, of_actuator), (control, types.void(MODEL, DATA)))
+    compiled = [cfunc(signature, cache=True, **OPTIONS)(function) for function, signature in signatures]
+    return compiled[0], compiled[1], compiled[2]
 
 
-_state_rate, _control = _with_helpers(SOURCES)
+_force, _state_rate, _control = _callbacks(SOURCES)
 
 _SLOTS = {
     "act_bias": (mujoco.get_mjcb_act_bias, mujoco.set_mjcb_act_bias, _force),
