@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from susp_mj.elements.car import HEAD, WHEEL, table, tables
 
 from susp_mj.elements import GRAVITY
+from susp_mj.handling.block import table, tables
 from vehicles import Vehicle, load_vehicle
 from vehicles.complete import CompleteCar, LoadedCar
 from vehicles.mjcf import HANDLING, MODELS, build
@@ -59,10 +59,9 @@ def test_a_model_settles_each_of_its_axles_once(model, monkeypatch):
 
 
 def test_both_wheels_of_an_axle_read_the_same_tables():
-    block = build(CARS["s_class"], HANDLING).model.numeric_data
-    wheels = block[len(HEAD) : len(HEAD) + 4 * len(WHEEL)].reshape(4, len(WHEEL))
+    wheels = build(CARS["s_class"], HANDLING).car.wheels
     for name in ("path", "angles", "swing", "elastic_lateral", "elastic_longitudinal", "elastic_aligning"):
-        places = wheels[:, WHEEL.index(name)]
+        places = wheels[name]
         assert places[0] == places[1] and places[2] == places[3], name
 
 
