@@ -49,9 +49,8 @@ class Hud(ABC):
     def __init__(self, clips: Sequence[Clip], window: Window, size: tuple[int, int], style: Style) -> None:
         self.clips, self.window, self.size = clips, window, size
         self.scale = size[1] / LAYOUT_HEIGHT
-        ghost = style.layout == "ghost"
-        self.boxes = columns(len(clips), size) if ghost else panels(len(clips), size)
-        self.views = panels(1, size) if ghost else self.boxes
+        self.boxes = columns(len(clips), size) if style.ghost else panels(len(clips), size)
+        self.views = panels(1, size) if style.ghost else self.boxes
         loads = [load for clip in clips for load in clip.run.stations("wheel_load").values()]
         self.highest_load = max(1.0, *(float(load.max()) for load in loads))
         strip = round(STRIP * self.scale)

@@ -48,7 +48,12 @@ class Style:
         }
         for key, (name, names) in offered.items():
             if name is not None and name not in names:
-                raise InputError(f"'{name}' unknown; {choices(names, name)}", key=key, source="video")
+                raise _refused(key, f"'{name}' unknown; {choices(names, name)}")
+
+    @property
+    def ghost(self) -> bool:
+        """Whether all configurations stand in one scene."""
+        return self.layout == "ghost"
 
     @property
     def fine(self) -> bool:
@@ -66,21 +71,21 @@ class Style:
         Raises:
             InputError: something that only runs of a car that drives freely can have.
         """
-        free = kind_of(clips).free
-        if self.camera is not None and not free:
-            raise InputError(
-                f"'{self.camera}' is for runs of model handling; other cars are drawn from one place",
-                key="camera",
-                source="video",
-            )
-        if self.layout == "ghost" and not free:
-            raise InputError(
-                "'ghost' is for runs of model handling; other cars stand side by side", key="layout", source="video"
-            )
-        if self.layout == "ghost" and len(clips) > MOST_GHOSTS:
-            raise InputError(
-                f"'ghost' shows up to {MOST_GHOSTS} configurations, not {len(clips)}", key="layout", source="video"
-            )
+        if not kind_of(clips).free:
+            if self.camera is not None:
+                raise _refused(
+                    "camera", f"'{self.camera}' is for runs of model handling; other cars are drawn from one place"
+                )
+            if self.ghost:
+                raise _refused(
+                    "layout", f"'{self.layout}' is for runs of model handling; other cars stand side by side"
+                )
+        if self.ghost and len(clips) > MOST_GHOSTS:
+            raise _refused("layout", f"'{self.layout}' shows up to {MOST_GHOSTS} configurations, not {len(clips)}")
+
+
+def _refused(key: str, message: str) -> InputError:
+    return InputError(message, key=key, source="video")
 
 
 @dataclass(frozen=True)
