@@ -45,7 +45,7 @@ from susp_mj.units import to_si
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
-from ..builders.handling_runs import STATIC, Bicycle, compared, driven, made_up
+from ..builders.runs import STATIC, Bicycle, compared, driven, made_up
 
 CAR = Bicycle()
 DRIVING = tuple(

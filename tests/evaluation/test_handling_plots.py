@@ -35,7 +35,7 @@ from susp_mj.meaning import Input
 from susp_mj.names import CORNERS, QUANTITIES
 
 from ..builders.comparisons import compare
-from ..builders.handling_runs import Bicycle, compared, driven, made_up
+from ..builders.runs import Bicycle, compared, driven, made_up
 
 SVG = "{http://www.w3.org/2000/svg}"
 SOFT, STIFF = Bicycle(front_share=0.8, roll_gradient=0.016), Bicycle()

@@ -35,25 +35,10 @@ from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, K_AND_C, build, write
 from vehicles.reading import load_vehicle
 
-from ..verification.plain_car import Driven, PlainCar
+from ..builders.manoeuvres import Driven
+from ..verification.plain_car import PlainCar
 
 CORNERS = ("fl", "fr", "rl", "rr")
-
-
-class Drive(Driven):
-    """Inputs as given, on a road, with a driver."""
-
-    ground: object = None
-    steerer: object = None
-
-    def road(self):
-        return self.ground
-
-    def driver(self):
-        return self.steerer
-
-    def model_dump(self, **_):
-        return {"kind": "drive", "speed": self.speed}
 
 
 @pytest.fixture(scope="module")
@@ -171,7 +156,7 @@ def test_the_car_stands_in_a_viewer_that_knows_no_manoeuvre(saloon):
 def test_the_car_begins_in_static_equilibrium_of_its_loads():
     for load in ("ko", "empty", "full"):
         vehicle = load_vehicle("s_class", "configuration_4")
-        run = simulate(build(vehicle, HANDLING, load), Drive(duration=0.5, speed=0.0))
+        run = simulate(build(vehicle, HANDLING, load), Driven(duration=0.5, speed=0.0))
         case = vehicle.loads[load]
         assert case.sprung_mass is not None
         weight = 9.81 * (case.sprung_mass + 4 * 39.5)
@@ -224,7 +209,7 @@ def table_value(x, y, at):
 def test_cross_slope_is_held_straight_by_a_trimmed_angle(saloon):
     """The car runs straight across the fall line: side forces carry ``m g s``, nothing yaws."""
     slope = 0.03
-    run = simulate(saloon, Drive(duration=2.0, speed=20.0, ground=Road(cross_slope=slope)))
+    run = simulate(saloon, Driven(duration=2.0, speed=20.0, ground=Road(cross_slope=slope)))
     assert np.ptp(run["yaw_angle"]) < 1e-7
     assert np.abs(run["position_y"]).max() < 1e-7
     assert np.abs(run["lateral_acceleration"]).max() < 1e-6
@@ -238,14 +223,14 @@ def test_cross_slope_is_held_straight_by_a_trimmed_angle(saloon):
 
 
 def test_the_speed_controller_follows_its_target(saloon):
-    run = simulate(saloon, Drive(duration=20.0, speed=15.0, inputs={"speed_target": [(1.0, 15.0), (8.0, 20.0)]}))
+    run = simulate(saloon, Driven(duration=20.0, speed=15.0, inputs={"speed_target": [(1.0, 15.0), (8.0, 20.0)]}))
     assert run["speed"][-1] == pytest.approx(20.0, abs=0.05)
     assert run["speed"].max() < 20.6
 
 
 def test_a_car_at_full_throttle_shifts_and_respects_its_limiter(saloon):
     inputs = {"accelerator": [(0.5, 0.0), (0.6, 1.0)], "speed_control": [(0.0, 1.0), (0.5, 1.0), (0.501, 0.0)]}
-    run = simulate(saloon, Drive(duration=15.0, speed=0.0, inputs=inputs))
+    run = simulate(saloon, Driven(duration=15.0, speed=0.0, inputs=inputs))
     assert set(np.unique(run["gear"])) >= {1.0, 2.0, 3.0}
     assert (np.diff(run["gear"]) >= 0).all()
     limit = load_vehicle("s_class").powertrain.speed[-1]
@@ -257,7 +242,7 @@ def test_a_car_at_full_throttle_shifts_and_respects_its_limiter(saloon):
 def test_braking_deceleration_is_that_of_the_brake_torque(saloon):
     """Moderate braking, engine uncoupled from the balance: ``sum of torques = F R_e``, ``m a = F + air + rolling``."""
     inputs = {"brake_pedal": [(0.5, 0.0), (0.7, 0.25)], "speed_control": [(0.0, 1.0), (0.5, 1.0), (0.501, 0.0)]}
-    run = simulate(saloon, Drive(duration=2.5, speed=30.0, inputs=inputs))
+    run = simulate(saloon, Driven(duration=2.5, speed=30.0, inputs=inputs))
     force = sum(run[f"{c}_longitudinal_force"][-1] for c in CORNERS)
     vehicle = load_vehicle("s_class", "configuration_4")
     air = vehicle.aerodynamics
@@ -273,7 +258,7 @@ def test_braking_deceleration_is_that_of_the_brake_torque(saloon):
 
 def test_locked_wheels_stand_still_and_the_car_stops_and_stays(saloon):
     inputs = {"brake_pedal": [(0.5, 0.0), (0.7, 1.0)], "speed_control": [(0.0, 1.0), (0.5, 1.0), (0.501, 0.0)]}
-    run = simulate(saloon, Drive(duration=6.5, speed=20.0, inputs=inputs))
+    run = simulate(saloon, Driven(duration=6.5, speed=20.0, inputs=inputs))
     sliding = (run.time > 1.5) & (run.time < 2.0)
     assert np.abs(run["fl_wheel_speed"][sliding]).max() < 0.1
     assert np.allclose(run["fl_slip_ratio"][sliding], -1.0, atol=0.01)
@@ -285,7 +270,7 @@ def test_locked_wheels_stand_still_and_the_car_stops_and_stays(saloon):
 def test_split_friction_turns_the_car_towards_the_grip(saloon):
     road = Road(patches=(Patch((15.0, 1e3), (-10.0, 0.0), 0.3),))
     inputs = {"brake_pedal": [(1.0, 0.0), (1.1, 0.4)], "speed_control": [(0.0, 1.0), (1.0, 1.0), (1.001, 0.0)]}
-    run = simulate(saloon, Drive(duration=1.8, speed=22.0, ground=road, inputs=inputs))
+    run = simulate(saloon, Driven(duration=1.8, speed=22.0, ground=road, inputs=inputs))
     assert run["fr_longitudinal_force"][-1] > run["fl_longitudinal_force"][-1] + 500  # braking forces are negative
     assert run["yaw_angle"][-1] > 0.01
 
@@ -295,7 +280,7 @@ def test_friction_patch_scales_what_a_locked_wheel_transmits(saloon):
     means = []
     for friction in (1.0, 0.5):
         road = Road(patches=(Patch((-10.0, 1e3), (-10.0, 10.0), friction),))
-        run = simulate(saloon, Drive(duration=1.8, speed=25.0, ground=road, inputs=inputs))
+        run = simulate(saloon, Driven(duration=1.8, speed=25.0, ground=road, inputs=inputs))
         means.append(run["fl_longitudinal_force"][-300:].mean() / run["fl_wheel_load"][-300:].mean())
     tyre = load_vehicle("s_class").front.handling_tyre
     law = [tyre.evaluate(kappa=-1.0, load=6000.0, friction=friction).longitudinal_force for friction in (1.0, 0.5)]
@@ -307,7 +292,7 @@ def test_side_wind_pushes_and_turns_the_car_as_its_coefficients_say(tmp_path):
     """Plain car at once after a step of wind: ``m a_y = 1/2 rho A c_s V² beta`` before it has begun to turn."""
     extra = {"aerodynamics.side": 2.0, "aerodynamics.yaw": 0.3}
     plant = build(PlainCar(extra=extra).vehicle(tmp_path), HANDLING)
-    run = simulate(plant, Drive(duration=0.6, speed=30.0, inputs={"wind_y": [(0.499, 0.0), (0.5, 8.0)]}))
+    run = simulate(plant, Driven(duration=0.6, speed=30.0, inputs={"wind_y": [(0.499, 0.0), (0.5, 8.0)]}))
     at = int(np.searchsorted(run.time, 0.5)) + 2
     pressure = 1.225 * 2.0 / 2 * (30.0**2 + 8.0**2)
     beta = math.atan2(8.0, 30.0)
@@ -323,7 +308,7 @@ def test_side_wind_pushes_and_turns_the_car_as_its_coefficients_say(tmp_path):
 def test_a_bump_on_the_road_reaches_front_and_rear_where_it_lies(saloon):
     x = np.arange(0.0, 40.0, 0.02)
     height, _ = cosine_bump(x - 10.0, 0.03, 1.0)
-    run = simulate(saloon, Drive(duration=1.5, speed=20.0, ground=Road(x=x, height=height[:, None])))
+    run = simulate(saloon, Driven(duration=1.5, speed=20.0, ground=Road(x=x, height=height[:, None])))
     front = run.time[np.argmax(run["fl_road_height"])]
     rear = run.time[np.argmax(run["rl_road_height"])]
     assert run["fl_road_height"].max() == pytest.approx(0.03, rel=1e-3)
@@ -334,20 +319,20 @@ def test_a_bump_on_the_road_reaches_front_and_rear_where_it_lies(saloon):
 
 def test_four_post_inputs_drive_a_standing_car(saloon):
     posts = {f"{c}_road_height": [(0.2, 0.0), (1.2, 0.02)] for c in CORNERS}
-    run = simulate(saloon, Drive(duration=4.0, speed=0.0, inputs=posts))
+    run = simulate(saloon, Driven(duration=4.0, speed=0.0, inputs=posts))
     assert run["body_displacement"][-1] - run["body_displacement"][0] == pytest.approx(0.02, abs=2e-3)
 
 
 def test_the_driver_follows_a_circle_and_a_lane_change(saloon):
     circle = PreviewDriver(Path(radius=60.0), understeer=0.0025)
-    run = simulate(saloon, Drive(duration=12.0, speed=14.0, steerer=circle))
+    run = simulate(saloon, Driven(duration=12.0, speed=14.0, steerer=circle))
     assert abs(run["path_deviation"][-1]) < 0.3
     radius = math.hypot(run["position_x"][-1], run["position_y"][-1] - 60.0)
     assert radius == pytest.approx(60.0 - run["path_deviation"][-1], abs=1e-6)
     assert run["lateral_acceleration"][-1] == pytest.approx(run["speed"][-1] ** 2 / radius, rel=0.02)
     x = np.linspace(0.0, 120.0, 241)
     y = 3.5 * (1 - np.cos(np.pi * np.clip((x - 30) / 30, 0, 1))) / 2
-    run = simulate(saloon, Drive(duration=6.0, speed=20.0, steerer=PreviewDriver(Path(x=x, y=y), understeer=0.0025)))
+    run = simulate(saloon, Driven(duration=6.0, speed=20.0, steerer=PreviewDriver(Path(x=x, y=y), understeer=0.0025)))
     assert run["position_y"][-1] == pytest.approx(3.5, abs=0.1)
     assert np.abs(run["path_deviation"]).max() < 0.6
 
@@ -357,7 +342,7 @@ def test_a_car_that_falls_over_says_so(saloon):
     with pytest.raises(SimulationError, match="the car fell over at t = "):
         simulate(
             saloon,
-            Drive(duration=12.0, speed=25.0, ground=road, inputs={"steering_wheel_angle": [(0.5, 0.0), (2.0, 4.0)]}),
+            Driven(duration=12.0, speed=25.0, ground=road, inputs={"steering_wheel_angle": [(0.5, 0.0), (2.0, 4.0)]}),
         )
 
 
@@ -366,7 +351,7 @@ def test_a_car_that_falls_over_says_so(saloon):
 
 def test_bump_on_the_rig_follows_the_tables(rig):
     posts = {f"{c}_road_height": [(0.2, 0.0), (3.2, 0.06)] for c in CORNERS}
-    run = simulate(rig, Drive(duration=3.5, speed=0.0, inputs=posts))
+    run = simulate(rig, Driven(duration=3.5, speed=0.0, inputs=posts))
     kinematics = load_vehicle("s_class").front.kinematics
     middle = list(kinematics.steer).index(0.0)
     travel = run["fl_suspension_deflection"]
@@ -383,7 +368,7 @@ def test_bump_on_the_rig_follows_the_tables(rig):
 
 def test_lateral_force_on_the_rig_gives_the_compliance_of_the_table(rig):
     force = {f"{c}_lateral_force": [(0.2, 0.0), (2.2, 2000.0)] for c in CORNERS}
-    run = simulate(rig, Drive(duration=3.0, speed=0.0, inputs=force))
+    run = simulate(rig, Driven(duration=3.0, speed=0.0, inputs=force))
     front = load_vehicle("s_class").front
     middle = list(front.kinematics.steer).index(0.0)
     for corner, side in (("fl", 1), ("fr", -1)):
@@ -398,7 +383,7 @@ def test_lateral_force_on_the_rig_gives_the_compliance_of_the_table(rig):
 def test_forces_on_the_rig_lift_the_suspension_by_virtual_work(rig):
     """A braking force F on the patch compresses the front suspension by ``F x'(z)`` over the wheel rate: anti-dive."""
     force = {f"{c}_longitudinal_force": [(0.2, 0.0), (2.2, -2000.0)] for c in ("fl", "fr")}
-    run = simulate(rig, Drive(duration=4.0, speed=0.0, inputs=force))
+    run = simulate(rig, Driven(duration=4.0, speed=0.0, inputs=force))
     kinematics = load_vehicle("s_class").front.kinematics
     slope = np.gradient(kinematics.path("longitudinal"), kinematics.travel)[list(kinematics.travel).index(0.0)]
     load = run["fl_wheel_load"][-1] - run["fl_wheel_load"][0]
@@ -410,7 +395,7 @@ def test_forces_on_the_rig_lift_the_suspension_by_virtual_work(rig):
 
 
 def test_the_rig_holds_the_body(rig):
-    run = simulate(rig, Drive(duration=3.0, speed=0.0, inputs={"roll_target": [(0.2, 0.0), (2.0, 0.05)]}))
+    run = simulate(rig, Driven(duration=3.0, speed=0.0, inputs={"roll_target": [(0.2, 0.0), (2.0, 0.05)]}))
     assert run["roll_angle"][-1] == pytest.approx(0.05, abs=2e-4)
     assert abs(run["pitch_angle"][-1]) < 1e-4
     assert abs(run["body_displacement"][-1]) < 1e-4
@@ -463,7 +448,7 @@ def test_drive_pushes_along_the_wheel_centres_path_and_brakes_along_the_patchs(s
     turn = (slopes["longitudinal_centre"] - slopes["longitudinal"]) / 0.316
     off = {"speed_control": [(0.0, 1.0), (0.5, 1.0), (0.501, 0.0)]}
     for pedal, value in (("accelerator", 0.5), ("brake_pedal", 0.3)):
-        run = simulate(saloon, Drive(duration=2.5, speed=15.0, inputs={pedal: [(0.5, 0.0), (0.8, value)], **off}))
+        run = simulate(saloon, Driven(duration=2.5, speed=15.0, inputs={pedal: [(0.5, 0.0), (0.8, value)], **off}))
         parts = sum(run[f"rl_{part}_force"] for part in ("spring", "stop", "damper", "friction", "bar"))
         carried, force, torque = (
             each[-300:].mean() - each[0]
@@ -512,7 +497,8 @@ def test_the_car_drives_on_every_kind_of_tyre(tyre, monkeypatch):
     register(SaturatingTyre)
     car = load_vehicle("bmw_320i", overrides={"front.handling_tyre": tyre, "rear.handling_tyre": tyre})
     run = simulate(
-        build(car, HANDLING), Drive(duration=4.0, speed=20.0, inputs={"steering_wheel_angle": [(0.5, 0.0), (0.8, 1.0)]})
+        build(car, HANDLING),
+        Driven(duration=4.0, speed=20.0, inputs={"steering_wheel_angle": [(0.5, 0.0), (0.8, 1.0)]}),
     )
     assert np.ptp(run["speed"][:400]) < 1e-7  # trimmed
     assert 3.0 < run["lateral_acceleration"][-1] < 8.5

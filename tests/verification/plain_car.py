@@ -6,10 +6,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-import numpy as np
-
-from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
-from susp_mj.meaning import Input
 from vehicles.reading import load_vehicle
 from vehicles.vehicle import Vehicle
 
@@ -122,24 +118,6 @@ class PlainCar:
         path = folder / "plain.toml"
         path.write_text("\n".join(lines))
         return load_vehicle(path, overrides=self.extra)
-
-
-class Driven(Manoeuvre):
-    """Inputs as given: (time, value) pairs, linear between, with the controller holding the speed."""
-
-    kind: str = "driven"
-    speed: float = 20.0
-    control: float = 1.0
-    inputs: dict[str, list[tuple[float, float]]] = {}  # noqa: RUF012 - pydantic copies it
-
-    def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
-        inputs = {"speed_target": [(0.0, self.speed)], "speed_control": [(0.0, self.control)], **self.inputs}
-        points = inputs.get(f"{place.station}_{place.quantity}" if place.station else place.quantity)
-        if points is None:
-            return None
-        moments, values = (np.array(each) for each in zip(*points, strict=True))
-        slopes = np.concatenate([[0.0], np.diff(values) / np.diff(moments), [0.0]])
-        return np.interp(time, moments, values), slopes[np.searchsorted(moments, time, side="right")]
 
 
 def settled(run, name: str) -> float:

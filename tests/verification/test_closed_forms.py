@@ -18,7 +18,7 @@ from susp_mj.equilibrium import static_equilibrium
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
-from .signals import SteadySine, first_harmonic
+from ..builders.manoeuvres import SteadySine
 
 FORMS = {entry["id"]: entry for entry in json.loads(Path(__file__).with_name("closed_forms.json").read_text())}
 MS, MU, K, KT = (FORMS["qc_eig"]["inputs"][name] for name in ("ms", "mu", "k", "kt"))
@@ -102,6 +102,17 @@ def test_variances_on_a_white_noise_road():
     assert covariance[0, 0] == pytest.approx(form["susp_formula"], rel=1e-8)
     assert covariance[2, 2] == pytest.approx(form["tyre_formula"], rel=1e-8)
     assert KT**2 * covariance[2, 2] == pytest.approx(form["dynload_var_per_W"], rel=1e-8)
+
+
+def first_harmonic(time: np.ndarray, values: np.ndarray, frequency: float, periods: int) -> complex:
+    """Complex amplitude over the last whole `periods`, by least squares with the higher harmonics beside it."""
+    last = time >= time[-1] - periods / frequency
+    t = time[last]
+    columns = [np.ones_like(t)]
+    for harmonic in range(1, 6):
+        columns += [np.cos(2 * np.pi * harmonic * frequency * t), np.sin(2 * np.pi * harmonic * frequency * t)]
+    found = np.linalg.lstsq(np.column_stack(columns), values[last], rcond=None)[0]
+    return complex(found[1], -found[2])
 
 
 SUSPENSIONS = {

@@ -11,8 +11,8 @@ from susp_mj import simulate
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
+from ..builders.manoeuvres import SmoothBump
 from .reference import QuarterCar, linear_spring, zoned_damper
-from .signals import SmoothBump
 
 LINEAR = {"rear.friction": None, "rear.damper": {"kind": "zoned", "rates": [1500]}}
 
@@ -30,7 +30,7 @@ def test_fourth_order(model, tyre):
         linkage_friction=0.0,
         tyre=tyre,
     )
-    road = manoeuvre.road()
+    road = manoeuvre.reference()
     times = np.linspace(0.2, 1.4, 13)
     exact = solve_ivp(
         lambda t, s: car.rates(s, road.height(t), road.rate(t))[0],

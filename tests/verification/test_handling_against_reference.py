@@ -12,7 +12,7 @@ from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, build
 from vehicles.reading import load_vehicle
 
-from .plain_car import Driven
+from ..builders.manoeuvres import Driven
 from .reference_handling import WHEELS, ReferenceCar, recorded_gears
 
 BODY = ("yaw_rate", "lateral_acceleration", "longitudinal_acceleration", "speed", "side_slip_angle", "roll_angle",

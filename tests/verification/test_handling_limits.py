@@ -15,7 +15,8 @@ from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, build
 from vehicles.reading import load_vehicle
 
-from .plain_car import Driven, PlainCar
+from ..builders.manoeuvres import Driven
+from .plain_car import PlainCar
 
 FORMS = {form["id"]: form for form in json.loads((Path(__file__).parent / "closed_forms.json").read_text())}
 RATIO = PlainCar.ratio

@@ -1,15 +1,45 @@
-"""Roads of the user's own: what a manoeuvre registered nowhere looks like, and smooth enough to show an order."""
+"""Manoeuvres registered nowhere, as a user would write them: inputs as given, roads smooth enough to show an order."""
 
 from __future__ import annotations
 
 from typing import ClassVar, Literal
 
 import numpy as np
+from pydantic import Field
 
 from susp_mj import Manoeuvre
+from susp_mj.manoeuvre import ValueAndRate
+from susp_mj.meaning import Input
 from susp_mj.units import PositiveTime
 
-from .reference import Road
+from ..verification.reference import Road
+
+
+class Driven(Manoeuvre):
+    """Inputs as given: (time, value) pairs, linear between, with the controller holding the speed; on a road, with a
+    driver."""
+
+    kind: str = "driven"
+    speed: float = 20.0
+    control: float = 1.0
+    inputs: dict[str, list[tuple[float, float]]] = {}  # noqa: RUF012 - pydantic copies it
+    ground: object = Field(default=None, exclude=True)
+    steerer: object = Field(default=None, exclude=True)
+
+    def road(self):
+        return self.ground
+
+    def driver(self):
+        return self.steerer
+
+    def drive(self, place: Input, time: np.ndarray) -> ValueAndRate | None:
+        inputs = {"speed_target": [(0.0, self.speed)], "speed_control": [(0.0, self.control)], **self.inputs}
+        points = inputs.get(f"{place.station}_{place.quantity}" if place.station else place.quantity)
+        if points is None:
+            return None
+        moments, values = (np.array(each) for each in zip(*points, strict=True))
+        slopes = np.concatenate([[0.0], np.diff(values) / np.diff(moments), [0.0]])
+        return np.interp(time, moments, values), slopes[np.searchsorted(moments, time, side="right")]
 
 
 class SmoothBump(Manoeuvre):
@@ -28,7 +58,7 @@ class SmoothBump(Manoeuvre):
         height = self.height * np.exp(-(share**2))
         return height, -2 * share / self.width * height
 
-    def road(self) -> Road:
+    def reference(self) -> Road:
         """The same road for the reference."""
 
         def z(t: float) -> float:
@@ -56,14 +86,3 @@ class SteadySine(Manoeuvre):
         fade, fade_rate = np.sin(np.pi / 2 * share) ** 2, np.pi / 2 / ramp * np.sin(np.pi * share)
         sine, cosine = self.amplitude * np.sin(w * time), self.amplitude * np.cos(w * time)
         return fade * sine, fade * w * cosine + fade_rate * sine
-
-
-def first_harmonic(time: np.ndarray, values: np.ndarray, frequency: float, periods: int) -> complex:
-    """Complex amplitude over the last whole `periods`, by least squares with the higher harmonics beside it."""
-    last = time >= time[-1] - periods / frequency
-    t = time[last]
-    columns = [np.ones_like(t)]
-    for harmonic in range(1, 6):
-        columns += [np.cos(2 * np.pi * harmonic * frequency * t), np.sin(2 * np.pi * harmonic * frequency * t)]
-    found = np.linalg.lstsq(np.column_stack(columns), values[last], rcond=None)[0]
-    return complex(found[1], -found[2])
