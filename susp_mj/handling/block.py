@@ -7,7 +7,7 @@ What the car writes at every stage (`SIGNALS`) lies at the end of mjData's `user
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -163,15 +163,24 @@ def tables(
         sets: (m, k, n), k curves in each of m tables.
         smooth, count: as for `table`.
     """
-    from scipy.interpolate import CubicSpline, PchipInterpolator
-
     x, y = np.asarray(places, float), np.array(sets, float)
     even, spacing = np.linspace(x[0], x[-1], count, retstep=True)
-    ends = "not-a-knot" if len(x) > 2 else "natural"
-    curve = CubicSpline(x, y, axis=2, bc_type=ends) if smooth else PchipInterpolator(x, y, axis=2)
-    numbers = np.stack([curve(even), curve(even, 1) * spacing], axis=3)  # table, curve, point, value and slope
-    rows = numbers.swapaxes(1, 2).reshape(len(y), -1)
+    # three points are a dense system to scipy, which takes longer for several curves at once than one by one
+    groups = y.reshape(-1, 1, 3) if len(x) == 3 else y.reshape(1, -1, len(x))
+    splines = [_spline(x, group, smooth=smooth) for group in groups]
+    values, slopes = (np.concatenate([spline(even, order) for spline in splines]) for order in (0, 1))
+    numbers = np.stack([values, slopes * spacing], axis=2).reshape(*y.shape[:2], count, 2)
+    rows = numbers.swapaxes(1, 2).reshape(len(y), -1)  # point by point, curve by curve
     return [np.concatenate([[even[0], 1 / spacing, count], row]) for row in rows]
+
+
+def _spline(x: np.ndarray, curves: np.ndarray, *, smooth: bool) -> Callable[[np.ndarray, int], np.ndarray]:
+    """Interpolant of (k, n) curves over (n,) places, and of its derivatives."""
+    from scipy.interpolate import CubicSpline, PchipInterpolator
+
+    if not smooth:
+        return PchipInterpolator(x, curves, axis=1)
+    return CubicSpline(x, curves, axis=1, bc_type="not-a-knot" if len(x) > 2 else "natural")
 
 
 def table_of_tables(start: float, spacing: float, tables: Sequence[np.ndarray]) -> np.ndarray:
