@@ -169,8 +169,9 @@ class CompleteCar:
         Raises:
             InputError: naming everything that is missing; no such load case; or the car would sink into the ground.
         """
-        missing, body = handling_needs(vehicle), vehicle.load(load).body
-        if missing or body is None:
+        missing = handling_needs(vehicle)
+        body = None if missing else vehicle.load(load).body
+        if body is None:
             raise InputError(
                 f"model 'handling' needs what this car does not give: {', '.join(missing)}", source=vehicle.source
             )

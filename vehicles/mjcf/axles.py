@@ -103,10 +103,10 @@ def add_suspension(builder: ModelBuilder, corner: Corner, deflection: Form, *, l
     return [corner.name(part) for part in elements]
 
 
-def note_stiffness(builder: ModelBuilder, corner: Corner, mass: float, *, tyre: bool) -> None:
-    """Time constants of a corner's rates on the mass [kg] that feels them: ``m/c`` of dampers, ``sqrt(m/k)`` of
+def note_stiffness(builder: ModelBuilder, loaded: LoadedAxle, mass: float, *, tyre: bool) -> None:
+    """Time constants of an axle's rates on the mass [kg] that feels them: ``m/c`` of dampers, ``sqrt(m/k)`` of
     springs."""
-    axle, where = corner.axle.values, corner.axle.name
+    axle, where = loaded.values, loaded.name
     arctan_slope = 2 / math.pi * 201.7
     if axle.friction is not None:
         force = axle.friction.force

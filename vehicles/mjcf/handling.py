@@ -28,7 +28,7 @@ from susp_mj.handling.block import (
 from susp_mj.meaning import Meaning
 from susp_mj.names import CORNERS, QUANTITIES
 
-from ..complete import CompleteCar
+from ..complete import CompleteAxle, CompleteCar
 from ..vehicle import Vehicle
 from .axles import Corner, add_suspension, note_stiffness
 from .handling_numbers import RIG_FORCES, Wheel, block
@@ -71,8 +71,10 @@ def handling_specification(vehicle: Vehicle, load: str, rig: str | None) -> tupl
     chassis = _add_chassis(builder, car)
     for wheel in wheels:
         _add_wheel(builder, car, chassis, wheel)
-    for wheel in wheels:
-        _add_forces(builder, car.steering, wheel)
+    for axle in car.axles:
+        for wheel in (each for each in wheels if each.axle is axle):
+            _add_forces(builder, car.steering, wheel)
+        _note_time_constants(builder, car.steering, axle)
     controls = _add_controls(builder, wheels, rig)
     builder.car(lambda model: block(model, car, wheels, controls, rig))
     _outputs(builder, wheels, rig)
@@ -149,20 +151,26 @@ def _add_forces(builder: ModelBuilder, steering: Steering, wheel: Wheel) -> None
     """Suspension elements along the travel, the steering's elasticity, and the tyre with its inner states."""
     corner = wheel.corner
     add_suspension(builder, corner, Form({corner.name("travel"): 1.0}))
-    mass, key = wheel.axle.unsprung_mass, f"{wheel.axle.name}.handling_tyre"
-    note_stiffness(builder, corner, mass, tyre=False)
-    stiffness, damping = wheel.tyre.vertical_stiffness, wheel.tyre.vertical_damping
-    builder.resolve(f"{key}.vertical_stiffness", stiffness, "N/m", math.sqrt(mass / stiffness), power=2.0)
-    if damping > 0:
-        builder.resolve(f"{key}.vertical_damping", damping, "N s/m", mass / damping)
     if wheel.front:
         spring = SpringDamper(stiffness=steering.stiffness, damping=steering.damping)
         builder.force(corner.name("steering"), spring, Form({corner.name("steer"): 1.0}))
-        seconds = math.sqrt(steering.knuckle_inertia / steering.stiffness)
-        builder.resolve("steering.stiffness", steering.stiffness, "N m/rad", seconds, power=2.0)
-        builder.resolve("steering.damping", steering.damping, "N m s/rad", steering.knuckle_inertia / steering.damping)
     builder.control(corner.name("tyre"), corner.name("travel"), WHEEL_STATES)
     builder.drive("road_height", corner.name("tyre"), 1.0, corner.station)
+
+
+def _note_time_constants(builder: ModelBuilder, steering: Steering, axle: CompleteAxle) -> None:
+    """What the step must resolve: suspension, tyre and, in front, the steering's elasticity."""
+    mass, tyre, key = axle.unsprung_mass, axle.handling_tyre, f"{axle.name}.handling_tyre"
+    note_stiffness(builder, axle, mass, tyre=False)
+    seconds = math.sqrt(mass / tyre.vertical_stiffness)
+    builder.resolve(f"{key}.vertical_stiffness", tyre.vertical_stiffness, "N/m", seconds, power=2.0)
+    if tyre.vertical_damping > 0:
+        builder.resolve(f"{key}.vertical_damping", tyre.vertical_damping, "N s/m", mass / tyre.vertical_damping)
+    if axle.name == "front":
+        inertia = steering.knuckle_inertia
+        seconds = math.sqrt(inertia / steering.stiffness)
+        builder.resolve("steering.stiffness", steering.stiffness, "N m/rad", seconds, power=2.0)
+        builder.resolve("steering.damping", steering.damping, "N m s/rad", inertia / steering.damping)
 
 
 def _add_controls(builder: ModelBuilder, wheels: Sequence[Wheel], rig: str | None) -> list[str]:

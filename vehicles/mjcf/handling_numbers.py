@@ -150,11 +150,13 @@ def _wheel_numbers(model: mujoco.MjModel, car: CompleteCar, wheel: Wheel, rig: s
 
 def _car_tables(car: CompleteCar) -> list[tuple[str, int, np.ndarray]]:
     """Torques over the engine's speed, parameters of brakes and air."""
-    train, laws = car.powertrain, {"brake_parameters": car.brakes, "air_parameters": car.aerodynamics}
-    curves = {"full_torque": train.full_torque, "drag_torque": train.drag_torque}
+    train = car.powertrain
+    full, drag = tables(train.speed, [[train.full_torque], [train.drag_torque]], smooth=False, count=65)
     return [
-        *((name, -1, table(train.speed, torque, smooth=False, count=65)) for name, torque in curves.items()),
-        *((name, -1, np.array(element.parameters())) for name, element in laws.items()),
+        ("full_torque", -1, full),
+        ("drag_torque", -1, drag),
+        ("brake_parameters", -1, np.array(car.brakes.parameters())),
+        ("air_parameters", -1, np.array(car.aerodynamics.parameters())),
     ]
 
 

@@ -43,9 +43,9 @@ def oscillation_specification(
     corners = _corners(builder, car, topology, mass)
     for group in (corners[i : i + topology.sides] for i in range(0, len(corners), topology.sides)):
         add_axle(builder, topology, body, position, group)
-    for corner in corners:
-        felt = corner.axle.unsprung_mass if topology.sprung_wheels else corner.axle.corner_mass
-        note_stiffness(builder, corner, felt, tyre=topology.sprung_wheels)
+    for each in car.axles:
+        felt = each.unsprung_mass if topology.sprung_wheels else each.corner_mass
+        note_stiffness(builder, each, felt, tyre=topology.sprung_wheels)
     roll_lever = add_lateral(builder, topology, car.cg_height, corners, position)
     add_longitudinal(builder, topology, car.cg_height, mass, position)
     add_seat(builder, vehicle.driver, mass, position)
