@@ -15,6 +15,7 @@ from manoeuvres import MANOEUVRES, find_manoeuvre
 from susp_mj.description import Description, one_of, validate, wrong
 from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
+from susp_mj.plugins import load_plugins
 from susp_mj.units import Quantity, to_si
 from vehicles.mjcf import MODELS
 from vehicles.reading import read_toml
@@ -108,6 +109,7 @@ class Case(Description):
         step: integration step [s]; by default 1 ms or what the dampers' mounts need.
         record_every: keep every n-th step; by default one a millisecond.
         film: how a video is drawn.
+        plugins: Python files that bring elements, manoeuvres, numbers or cameras; relative to the case file.
     """
 
     title: str
@@ -120,6 +122,7 @@ class Case(Description):
     step: Annotated[float, Quantity("s", gt=0)] | None = None
     record_every: int | None = Field(default=None, ge=1)
     film: Film = Film()
+    plugins: tuple[str, ...] = ()
 
     @model_validator(mode="after")
     def _known_names(self) -> Case:
@@ -164,7 +167,9 @@ def load_case(name: str | Path) -> tuple[Case, Path]:
         if str(name) not in available_cases():
             raise InputError(f"no case '{name}'; {choices(available_cases(), name)}, or give a .toml file", key="case")
         path = FOLDER / f"{name}.toml"
-    return validate(Case, read_toml(path), source=path.name), path
+    tables = read_toml(path)
+    load_plugins(tables.get("plugins", ()), path)
+    return validate(Case, tables, source=path.name), path
 
 
 def with_film(case: Case, camera: str | None, *, ghost: bool, fine: bool) -> Case:

@@ -15,6 +15,7 @@ import typer
 
 from evaluation.animation.cameras import offered
 from susp_mj.errors import InputError, SuspMjError
+from susp_mj.hiding import explained
 
 if TYPE_CHECKING:
     from .case import Case
@@ -90,9 +91,7 @@ def drive(
     context: typer.Context, manoeuvre: Annotated[str, typer.Argument(help="Manoeuvre, see 'susp-mj list'.")]
 ) -> None:
     """Drive one manoeuvre on named configurations: susp-mj drive bump --help."""
-    from manoeuvres import find_manoeuvre
-
-    _drive(find_manoeuvre(manoeuvre), context.args)
+    _drive(manoeuvre, context.args)
 
 
 @app.command()
@@ -155,8 +154,11 @@ def modes(
 @app.command("list")
 def list_() -> None:
     """List cars, models, manoeuvres, cases, elements and evaluation numbers."""
+    from susp_mj.plugins import load_installed
+
     from .terminal import print_lists
 
+    load_installed()
     print_lists()
 
 
@@ -198,10 +200,10 @@ def main() -> None:
     _guarded(app)
 
 
-def _drive(kind: str, arguments: Sequence[str]) -> None:
+def _drive(manoeuvre: str, arguments: Sequence[str]) -> None:
     from .script import case_from_arguments
 
-    asked = case_from_arguments(kind, arguments)
+    asked = case_from_arguments(manoeuvre, arguments)
     _run(asked.case, asked.path, asked.out, video=asked.video, workers=asked.workers)
 
 
@@ -225,7 +227,7 @@ def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool = False
 
 
 def _guarded(command: Callable[[], object]) -> None:
-    """Run a command; a known error becomes one line and exit code 2, never a traceback.
+    """Run a command; a known error, or one whose reason is known, becomes one line and exit code 2, never a traceback.
 
     MuJoCo cannot be imported under a MUJOCO_GL that does not work, and only rendering needs it: it is kept for that.
     """
@@ -238,6 +240,12 @@ def _guarded(command: Callable[[], object]) -> None:
         command()
     except SuspMjError as error:
         typer.echo(f"{typer.style('error:', fg='red')} {error}", err=True)
+        sys.exit(2)
+    except ImportError as error:
+        reason = explained(error)
+        if reason is None:
+            raise
+        typer.echo(f"{typer.style('error:', fg='red')} {reason}", err=True)
         sys.exit(2)
     except typer.Exit as leave:
         sys.exit(leave.exit_code)

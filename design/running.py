@@ -21,6 +21,7 @@ from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
 from susp_mj.names import AXLES
 from susp_mj.plant import Plant
+from susp_mj.plugins import load_plugins
 from susp_mj.recording import Diverged
 from susp_mj.run import Run
 from susp_mj.simulation import simulate
@@ -42,10 +43,11 @@ class Job:
         setting: car, set of characteristics, overrides, one load case, axle.
         model: topology, a key of `vehicles.mjcf.MODELS`.
         manoeuvre: table of a manoeuvre.
-        numbers: names of the evaluation numbers.
+        numbers: names of the evaluation numbers; all if empty.
         step, record_every: as those of a `Case`.
-        folder: where the car's file is looked for.
-        source, place: the case file and the setting's place in it, for errors.
+        plugins: of a `Case`.
+        path: the case file, beside which the car's file and the plugins lie.
+        place: of the setting in it, for errors.
     """
 
     setting: Setting
@@ -54,8 +56,8 @@ class Job:
     numbers: Sequence[str]
     step: float | None = None
     record_every: int | None = None
-    folder: Path = Path()
-    source: str = ""
+    plugins: Sequence[str] = ()
+    path: Path = Path()
     place: int = 0
 
 
@@ -116,7 +118,7 @@ def run_case(
 
 def jobs_of(case: Case, path: Path) -> list[Job]:
     """A case taken apart: one job for each configuration and load case."""
-    names = tuple(dict.fromkeys((*case.numbers, *case.criteria))) if case.numbers else tuple(NUMBERS)
+    names = tuple(dict.fromkeys((*case.numbers, *case.criteria))) if case.numbers else ()
     return [
         Job(
             setting,
@@ -125,8 +127,8 @@ def jobs_of(case: Case, path: Path) -> list[Job]:
             names,
             case.step,
             case.record_every,
-            folder=path.parent,
-            source=path.name,
+            plugins=case.plugins,
+            path=path,
             place=place,
         )
         for place, setting in case.settings
@@ -140,16 +142,17 @@ def prepare(job: Job) -> Prepared:
         InputError: naming file, key and value.
     """
     setting, name = job.setting, job.setting.vehicle
-    manoeuvre = read_manoeuvre(job.manoeuvre, job.source)
+    load_plugins(job.plugins, job.path)
+    manoeuvre = read_manoeuvre(job.manoeuvre, job.path.name)
     try:
         vehicle = load_vehicle(
-            job.folder / name if name.endswith(".toml") else name, setting.characteristics, setting.set
+            job.path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set
         )
         plant = build(vehicle, job.model, str(setting.load), setting.axle, manoeuvre.rig)
     except InputError as error:
         if error.source:
             raise
-        raise error.within(key=f"configuration.{job.place}", source=job.source) from None
+        raise error.within(key=f"configuration.{job.place}", source=job.path.name) from None
     return Prepared(job, vehicle, manoeuvre, plant)
 
 
@@ -165,7 +168,7 @@ def simulated(prepared: Prepared, progress: Progress = lambda done: None) -> tup
     except SimulationError as error:
         return prepared, error
     except InputError as error:
-        raise _of_manoeuvre(error, manoeuvre).within(source=job.source) from None
+        raise _of_manoeuvre(error, manoeuvre).within(source=job.path.name) from None
     return prepared, run
 
 
@@ -184,7 +187,7 @@ def outcome(of: tuple[Prepared, Run | SimulationError]) -> Outcome:
 def _configuration(prepared: Prepared, run: Run) -> Configuration:
     """A run with its numbers, characteristics, modes and exact amplifications."""
     job, vehicle = prepared.job, prepared.vehicle
-    what = (job.setting.name, prepared.title, run, evaluate(run, job.numbers))
+    what = (job.setting.name, prepared.title, run, evaluate(run, job.numbers or tuple(NUMBERS)))
     if job.model == HANDLING:
         return Configuration(*what, [characteristic(f"{name} axle", vehicle.axle(name)) for name in AXLES])
     axles = dict.fromkeys(travel.key for travel in prepared.plant.meaning.travels)

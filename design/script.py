@@ -6,13 +6,15 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from evaluation.animation.cameras import offered
-from manoeuvres import MANOEUVRES
+from manoeuvres import MANOEUVRES, find_manoeuvre
 from manoeuvres.driving import Driving
 from susp_mj.description import validate
+from susp_mj.errors import InputError
 from susp_mj.manoeuvre import Manoeuvre
+from susp_mj.plugins import load_installed, load_plugin
 from susp_mj.units import unit_of
 from vehicles.mjcf import HANDLING, K_AND_C, MODELS
 from vehicles.reading import VehicleFile
@@ -40,12 +42,14 @@ class Asked:
     workers: int | None
 
 
-def case_from_arguments(kind: str, arguments: Sequence[str]) -> Asked:
-    """The case that the arguments of a manoeuvre script describe.
+def case_from_arguments(name: str, arguments: Sequence[str]) -> Asked:
+    """The case that the arguments of a manoeuvre script describe; plugins among them may bring the manoeuvre itself.
 
     A configuration is one combination of the given vehicles, sets of characteristics and load cases. Without a vehicle,
     a quarter car is that of chapter 3, any other model the whole car with two of its sets.
     """
+    plugins = _plugins(arguments)
+    kind = find_manoeuvre(name)
     manoeuvre = MANOEUVRES[kind]
     options = vars(_parser(kind, manoeuvre).parse_args(arguments))
     parameters = {name: options[name] for name in manoeuvre.model_fields if options.get(name) is not None}
@@ -75,11 +79,37 @@ def case_from_arguments(kind: str, arguments: Sequence[str]) -> Asked:
             "model": options["model"],
             "manoeuvre": {**parameters, "kind": kind},
             "configuration": settings,
+            "plugins": plugins,
         },
         source=f"{kind}.py",
     )
     case = with_film(case, options["camera"], ghost=options["ghost"], fine=options["fine"])
     return Asked(case, Path(f"{kind}.py"), options["out"], options["video"], options["workers"])
+
+
+def _plugins(arguments: Sequence[str]) -> list[str]:
+    """Load what `--plugin` names; returns the files."""
+    parser = _Parser(add_help=False, allow_abbrev=False)
+    _add_plugin(parser)
+    names = parser.parse_known_args(arguments)[0].plugin or []
+    files = [str(Path(name).resolve()) for name in names]
+    load_installed()
+    for file in files:
+        load_plugin(Path(file))
+    return files
+
+
+def _add_plugin(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--plugin", action="append", help="Python file that brings elements, manoeuvres or numbers, repeatable"
+    )
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose complaints are one line, as all of ours."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(message, source=self.prog)
 
 
 def _default_load(kind: str, vehicle: str) -> str:
@@ -118,9 +148,7 @@ def _label(vehicles: Sequence[str], vehicle: str, sets: str | None, load: str, l
 
 
 def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog=f"{kind}.py", description=(manoeuvre.__doc__ or "").split("\n\n")[0], allow_abbrev=False
-    )
+    parser = _Parser(prog=f"{kind}.py", description=(manoeuvre.__doc__ or "").split("\n\n")[0], allow_abbrev=False)
     parser.add_argument(
         "--vehicle", action="append", help=f"car or vehicle file, repeatable (default {DEFAULT_VEHICLE} or {WHOLE_CAR})"
     )
@@ -139,6 +167,7 @@ def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
     parser.add_argument(
         "--out", "-o", type=Path, default=Path("out") / kind, help=f"folder for the results (default out/{kind})"
     )
+    _add_plugin(parser)
     parser.add_argument("--workers", type=int, help="configurations at a time (default: as many as there are cores)")
     parser.add_argument("--video", action="store_true", help="also render an animation")
     parser.add_argument("--camera", help=f"of a driving car: {offered()} (default: what suits the manoeuvre)")

@@ -92,6 +92,20 @@ def find_manoeuvre(name: str) -> str:
     return found
 
 
+def register(manoeuvre: type[Manoeuvre]) -> None:
+    """Make a manoeuvre of your own known by its `kind`, in case files and on the command line.
+
+    Raises:
+        InputError: it has no kind, or the kind is taken by another.
+    """
+    kind = manoeuvre.model_fields["kind"].default
+    if not isinstance(kind, str):
+        raise InputError(f"{manoeuvre.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")
+    if kind in ALIASES or MANOEUVRES.get(kind, manoeuvre) is not manoeuvre:
+        raise InputError(f"kind '{kind}' of {manoeuvre.__name__} is taken by another manoeuvre")
+    MANOEUVRES[kind] = manoeuvre
+
+
 __all__ = [
     "ALIASES",
     "MANOEUVRES",
@@ -117,4 +131,5 @@ __all__ = [
     "UnevenRoad",
     "VerticalSweep",
     "find_manoeuvre",
+    "register",
 ]

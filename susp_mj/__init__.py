@@ -5,6 +5,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from .hiding import explain_uncaught
+
 if TYPE_CHECKING:
     from .errors import InputError as InputError
     from .errors import SimulationError as SimulationError
@@ -35,6 +37,8 @@ __all__ = [
     "SuspMjError",
     "simulate",
 ]
+
+explain_uncaught()
 
 
 def __getattr__(name: str) -> Any:

@@ -11,6 +11,7 @@ from typing import Any
 
 from susp_mj.description import validate
 from susp_mj.errors import InputError, choices
+from susp_mj.plugins import load_plugins
 
 from .vehicle import Vehicle
 
@@ -26,7 +27,7 @@ def available_vehicles() -> list[str]:
 
 @dataclass(frozen=True)
 class VehicleFile:
-    """A vehicle file, opened and parsed once.
+    """A vehicle file, opened and parsed once; its `plugins` are loaded.
 
     Attributes:
         path: of the file; its name without ending is the car's.
@@ -45,10 +46,12 @@ class VehicleFile:
         """The file of a shipped car (``"chapter3"``), or the one at a path.
 
         Raises:
-            InputError: no such car or file, not TOML, sets that are no tables, or a default that is no set.
+            InputError: no such car or file, not TOML, a plugin that fails, sets that are no tables, or a default that
+                is no set.
         """
         path = _find(name)
         tables = read_toml(path)
+        load_plugins(tables.pop("plugins", ()), path)
         sets, default = tables.pop("characteristics", {}), tables.pop("default", "")
         if not isinstance(sets, dict) or not all(isinstance(each, dict) for each in sets.values()):
             raise InputError("must hold one table for each set", key="characteristics", source=path.name)
