@@ -109,7 +109,7 @@ class Case(Description):
         step: integration step [s]; by default 1 ms or what the dampers' mounts need.
         record_every: keep every n-th step; by default one a millisecond.
         film: how a video is drawn.
-        plugins: Python files that bring elements, manoeuvres, numbers or cameras; relative to the case file.
+        plugins: Python files that bring elements, manoeuvres or numbers; relative to the case file.
     """
 
     title: str

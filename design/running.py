@@ -101,7 +101,7 @@ def run_case(
         workers: at most so many configurations at a time; None takes the usable cores.
 
     Raises:
-        InputError: naming file, key and value; of every configuration before the first is simulated.
+        InputError: naming file, key and value; what is wrong in a file ends the work under way.
     """
     jobs = jobs_of(case, path)
     outcomes = side_by_side(

@@ -1,4 +1,4 @@
-"""Plugins: a user's own Python files, which register elements, manoeuvres, numbers or cameras before something is read.
+"""Plugins: a user's own Python files, which register elements, manoeuvres or numbers before something is read.
 
 A case or vehicle file names them by `plugins`; an installed package by an entry point of group `susp_mj.plugins`. Each
 is run once in a process.

@@ -67,10 +67,10 @@ def test_a_job_is_plain_data():
         assert back.numbers == here.numbers
 
 
-def test_every_configuration_is_read_before_the_first_is_simulated(tmp_path, monkeypatch):
+def test_a_mistake_in_the_last_configuration_is_found(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(STEP + LOW + 'load = "heavy"\n')
-    with pytest.raises(InputError, match="no load case 'heavy'"):
+    with pytest.raises(InputError, match="has no load case 'heavy'"):
         run_case(*load_case(path))
 
 
