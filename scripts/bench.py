@@ -33,7 +33,8 @@ from vehicles import load_vehicle
 from vehicles.mjcf import build
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
-from tests.verification.reference import QuarterCar, bump_road, constant_frequency_spring, zoned_damper
+from tests.verification.reference import bump_road
+from tests.verification.thesis_cars import CHAPTER_3
 
 
 def quarter_car() -> tuple[Plant, Bump]:
@@ -99,7 +100,7 @@ def numpy_rates(manoeuvre: Bump) -> Callable[[float, np.ndarray], np.ndarray]:
 
 def scalar_rates(manoeuvre: Bump) -> Callable[[float, np.ndarray], list[float]]:
     """The same in scalar Python, written for speed."""
-    car = QuarterCar(483.5, constant_frequency_spring(4743.0, 1.2), zoned_damper([3000.0, 600.0], [0.2], 1.0, 2.0))
+    car = CHAPTER_3["nonlinear"]
     road = bump_road(manoeuvre.height, manoeuvre.length, manoeuvre.speed, manoeuvre.start)
 
     def rates(t: float, s: np.ndarray) -> list[float]:
@@ -117,7 +118,7 @@ def against_scipy() -> list[Result]:
     """
     plant, manoeuvre = quarter_car()
     time_grid = np.arange(3001) * 1e-3
-    at_rest = np.array([-4.9e-6, 0.0, 0.0, 0.0, -4.9e-6])
+    at_rest = CHAPTER_3["nonlinear"].at_rest()
 
     def theirs(rates: Callable[[float, np.ndarray], Sequence[float] | np.ndarray], method: str, step: float) -> float:
         found = solve_ivp(

@@ -12,26 +12,22 @@ from susp_mj.linear import linearise
 from vehicles import load_vehicle
 from vehicles.mjcf import OSCILLATION, build
 
-from ..verification.test_random_road import LINEAR_CAR
+from ..builders.cars import LinearQuarterCar
+
+CAR = LinearQuarterCar()
+MS, MU, K, C, KT = CAR.sprung, CAR.unsprung, CAR.rate, CAR.damping, CAR.tyre
 
 
-@pytest.fixture
-def linear_car(tmp_path):
-    path = tmp_path / "linear.toml"
-    path.write_text(LINEAR_CAR)
-    return path
-
-
-def quarter_transfer(frequency, ms=483.5, mu=39.5, k=27486.45347285782, c=1200.0, kt=176e3):
+def quarter_transfer(frequency):
     """Body over road of the two-mass quarter car."""
     s = 2j * np.pi * frequency
-    link = c * s + k
-    wheel = kt / (mu * s**2 + link + kt - link**2 / (ms * s**2 + link))
-    return wheel * link / (ms * s**2 + link)
+    link = C * s + K
+    wheel = KT / (MU * s**2 + link + KT - link**2 / (MS * s**2 + link))
+    return wheel * link / (MS * s**2 + link)
 
 
-def test_transfer_function_is_the_closed_form(linear_car):
-    linear = linearise(build(load_vehicle(linear_car), "quarter_2dof"))
+def test_transfer_function_is_the_closed_form():
+    linear = linearise(build(CAR.vehicle(), "quarter_2dof"))
     frequency = np.geomspace(0.1, 50, 60)
     found = linear.transfer("body_displacement", {"road_height": 1.0}, frequency)
     np.testing.assert_allclose(found, quarter_transfer(frequency), rtol=1e-6)
@@ -39,27 +35,26 @@ def test_transfer_function_is_the_closed_form(linear_car):
     np.testing.assert_allclose(acceleration, found * (2j * np.pi * frequency) ** 2, rtol=1e-6)
 
 
-def test_modes_are_the_closed_form(linear_car):
-    modes = linearise(build(load_vehicle(linear_car), "quarter_2dof")).modes()
-    ms, mu, k, c, kt = 483.5, 39.5, 27486.45347285782, 1200.0, 176e3
-    roots = np.roots([ms * mu, c * (ms + mu), k * (ms + mu) + kt * ms, kt * c, k * kt])
+def test_modes_are_the_closed_form():
+    modes = linearise(build(CAR.vehicle(), "quarter_2dof")).modes()
+    roots = np.roots([MS * MU, C * (MS + MU), K * (MS + MU) + KT * MS, KT * C, K * KT])
     expected = sorted((abs(r) / 2 / np.pi, -r.real / abs(r)) for r in roots if r.imag > 0)
     np.testing.assert_allclose([(m.frequency, m.damping) for m in modes], expected, rtol=1e-6)
 
 
-def test_rigid_wheel_sees_the_rate_of_the_road(linear_car):
+def test_rigid_wheel_sees_the_rate_of_the_road():
     """(c s + k)/(m s² + c s + k): the damper feels the road's speed at once."""
-    linear = linearise(build(load_vehicle(linear_car), "quarter_1dof"))
+    linear = linearise(build(CAR.vehicle(), "quarter_1dof"))
     frequency = np.geomspace(0.1, 30, 40)
     s = 2j * np.pi * frequency
-    expected = (1200 * s + 27486.45347285782) / (483.5 * s**2 + 1200 * s + 27486.45347285782)
+    expected = (C * s + K) / (MS * s**2 + C * s + K)
     np.testing.assert_allclose(
         linear.transfer("body_displacement", {"road_height": 1.0}, frequency), expected, rtol=1e-6
     )
 
 
-def test_sweep_agrees_with_the_transfer_function(linear_car):
-    plant = build(load_vehicle(linear_car), "quarter_2dof")
+def test_sweep_agrees_with_the_transfer_function():
+    plant = build(CAR.vehicle(), "quarter_2dof")
     found = amplification(simulate(plant, VerticalSweep(amplitude=0.02, duration=60.0)), "wheel_load")
     exact = linearise(plant).transfer("wheel_load", {"road_height": 1.0}, found.frequency)
     error = np.abs(found.ratio / exact - 1)

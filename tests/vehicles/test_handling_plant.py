@@ -35,8 +35,8 @@ from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, K_AND_C, build, write
 from vehicles.reading import load_vehicle
 
+from ..builders.cars import PlainCar
 from ..builders.manoeuvres import Driven
-from ..verification.plain_car import PlainCar
 
 CORNERS = ("fl", "fr", "rl", "rr")
 
@@ -175,10 +175,10 @@ def test_a_speed_beyond_the_cars_is_refused_with_its_top_speed(saloon):
         simulate(saloon, Driven(duration=1.0, speed=100.0))
 
 
-def test_the_top_speed_is_where_power_meets_resistance(tmp_path):
+def test_the_top_speed_is_where_power_meets_resistance():
     """Plain car: ``T i/R = 1/2 rho c A v² + f m g`` in top gear."""
     resistance, drag = 0.012, 0.35
-    vehicle = PlainCar(rolling_resistance=resistance, drag=drag).vehicle(tmp_path)
+    vehicle = PlainCar(rolling_resistance=resistance, drag=drag).vehicle()
     plant = build(vehicle, HANDLING)
     with pytest.raises(InputError) as caught:
         simulate(plant, Driven(duration=1.0, speed=120.0))
@@ -288,10 +288,10 @@ def test_friction_patch_scales_what_a_locked_wheel_transmits(saloon):
     assert means[1] / means[0] == pytest.approx(law[1] / law[0], rel=0.03)
 
 
-def test_side_wind_pushes_and_turns_the_car_as_its_coefficients_say(tmp_path):
+def test_side_wind_pushes_and_turns_the_car_as_its_coefficients_say():
     """Plain car at once after a step of wind: ``m a_y = 1/2 rho A c_s V² beta`` before it has begun to turn."""
     extra = {"aerodynamics.side": 2.0, "aerodynamics.yaw": 0.3}
-    plant = build(PlainCar(extra=extra).vehicle(tmp_path), HANDLING)
+    plant = build(PlainCar(overrides=extra).vehicle(), HANDLING)
     run = simulate(plant, Driven(duration=0.6, speed=30.0, inputs={"wind_y": [(0.499, 0.0), (0.5, 8.0)]}))
     at = int(np.searchsorted(run.time, 0.5)) + 2
     pressure = 1.225 * 2.0 / 2 * (30.0**2 + 8.0**2)

@@ -20,9 +20,12 @@ G = 9.81
 Curve = Callable[[float], float]
 
 
+def constant_rate_spring(preload: float, rate: float) -> Curve:
+    return lambda x: preload + rate * x
+
+
 def linear_spring(preload: float, frequency: float) -> Curve:
-    stiffness = preload / G * (2 * math.pi * frequency) ** 2
-    return lambda x: preload + stiffness * x
+    return constant_rate_spring(preload, preload / G * (2 * math.pi * frequency) ** 2)
 
 
 def constant_frequency_spring(preload: float, frequency: float) -> Curve:

@@ -15,25 +15,20 @@ from vehicles.mjcf import build
 from .reference import (
     QuarterCar,
     bump_road,
-    constant_frequency_spring,
     linear_spring,
     progressive_spring,
     solve,
     step_road,
     zoned_damper,
 )
+from .thesis_cars import CHAPTER_3
 
 CHAPTER3_BUMP = bump_road(0.08, 2.0, 50 / 3.6, 0.2)
-CARS = {
-    "linear": QuarterCar(483.5, linear_spring(4743, 1.2), zoned_damper([3000], [])),
-    "nonlinear": QuarterCar(483.5, constant_frequency_spring(4743, 1.2), zoned_damper([3000, 600], [0.2], 1, 2)),
-    "soft_linear": QuarterCar(483.5, linear_spring(4743, 1.2), zoned_damper([1200], [])),
-}
 
 
 @functools.cache
 def reference(case):
-    return solve(CARS[case], CHAPTER3_BUMP, 3.0)
+    return solve(CHAPTER_3[case], CHAPTER3_BUMP, 3.0)
 
 
 @functools.cache
@@ -43,11 +38,11 @@ def product(case):
 
 def test_the_solver_agrees_with_another_method():
     """The yardstick itself: an implicit Runge-Kutta method gives the same motion as the multistep one."""
-    other = solve(CARS["nonlinear"], CHAPTER3_BUMP, 1.0, method="Radau", rtol=1e-8)
+    other = solve(CHAPTER_3["nonlinear"], CHAPTER3_BUMP, 1.0, method="Radau", rtol=1e-8)
     assert np.abs(other.body - reference("nonlinear").body[: len(other.body)]).max() < 1e-6
 
 
-@pytest.mark.parametrize("case", CARS)
+@pytest.mark.parametrize("case", CHAPTER_3)
 def test_body_height(case):
     run, expected = product(case), reference(case)
     assert len(run.time) == 3001
@@ -55,7 +50,7 @@ def test_body_height(case):
     assert np.abs(run["body_displacement"] - expected.body).max() < 0.05e-3
 
 
-@pytest.mark.parametrize("case", CARS)
+@pytest.mark.parametrize("case", CHAPTER_3)
 def test_travel_and_wheel_load(case):
     run, expected = product(case), reference(case)
     assert np.abs(run["suspension_deflection"] - expected.travel).max() < 0.1e-3
@@ -66,7 +61,7 @@ def test_travel_and_wheel_load(case):
 FIGURES = {"linear": (11.24, -11.42, 0.0), "nonlinear": (7.89, -5.80, 1823.0), "soft_linear": (8.27, -6.74, 1439.0)}
 
 
-@pytest.mark.parametrize("case", CARS)
+@pytest.mark.parametrize("case", CHAPTER_3)
 def test_figures_of_chapter_3(case):
     up, down, load = FIGURES[case]
     run = product(case)
@@ -173,7 +168,7 @@ def rigid(car):
     return QuarterCar(car.sprung, car.spring, car.damper, tyre=None)
 
 
-@pytest.mark.parametrize("case", CARS)
+@pytest.mark.parametrize("case", CHAPTER_3)
 @pytest.mark.parametrize(
     ("manoeuvre", "road", "flies"),
     [
@@ -187,7 +182,7 @@ def rigid(car):
 def test_massless_wheel(case, manoeuvre, road, flies):
     """The rigid massless wheel follows the road, and the road cannot pull."""
     run = simulate(build(load_vehicle("chapter3", case), "quarter_1dof"), manoeuvre)
-    expected = solve(rigid(CARS[case]), road, 2.0)
+    expected = solve(rigid(CHAPTER_3[case]), road, 2.0)
     assert np.abs(run["body_displacement"] - expected.body).max() < 0.05e-3
     assert np.abs(run["suspension_deflection"] - expected.travel).max() < 0.05e-3
     assert run["wheel_load"].min() >= 0.0

@@ -15,9 +15,9 @@ from susp_mj import simulate
 from susp_mj.compiled import attach_input, install
 from susp_mj.elements import ConstantFrequencySpring, LinkageFriction, Stops
 from susp_mj.equilibrium import static_equilibrium
-from vehicles import load_vehicle
 from vehicles.mjcf import build
 
+from ..builders.cars import LinearQuarterCar
 from ..builders.manoeuvres import SteadySine
 
 FORMS = {entry["id"]: entry for entry in json.loads(Path(__file__).with_name("closed_forms.json").read_text())}
@@ -25,21 +25,9 @@ MS, MU, K, KT = (FORMS["qc_eig"]["inputs"][name] for name in ("ms", "mu", "k", "
 STOPS = {"rebound": -0.2, "compression": 0.2}
 
 
-def linear_car(rate=K, damping=1200.0, **overrides):
-    """Quarter car of chapter 3 with linear elements only."""
-    return build(
-        load_vehicle(
-            "chapter3",
-            "linear",
-            {
-                "rear.spring": {"kind": "linear", "rate": rate, "stops": STOPS},
-                "rear.damper": {"kind": "zoned", "rates": [damping]},
-                "rear.friction": None,
-                **overrides,
-            },
-        ),
-        "quarter_2dof",
-    )
+def linear_car(damping=1200.0, **overrides):
+    """The plant of the closed forms' linear quarter car."""
+    return build(LinearQuarterCar(MS, MU, K, damping, KT).vehicle(overrides), "quarter_2dof")
 
 
 class Accelerations:

@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from susp_mj import simulate
-from vehicles import load_vehicle
 from vehicles.mjcf import build
 
+from ..builders.cars import LinearQuarterCar
 from ..builders.manoeuvres import SmoothBump
-from .reference import QuarterCar, linear_spring, zoned_damper
 
-LINEAR = {"rear.friction": None, "rear.damper": {"kind": "zoned", "rates": [1500]}}
+CAR = LinearQuarterCar(damping=1500.0)
 
 
-@pytest.mark.parametrize(("model", "tyre"), [("quarter_2dof", 176e3), ("quarter_1dof", None)])
+@pytest.mark.parametrize(("model", "tyre"), [("quarter_2dof", CAR.tyre), ("quarter_1dof", None)])
 def test_fourth_order(model, tyre):
-    plant = build(load_vehicle("chapter3", "linear", LINEAR), model)
+    car = replace(CAR.reference(), tyre=tyre)
+    plant = build(CAR.vehicle(), model)
     manoeuvre = SmoothBump()
-    car = QuarterCar(
-        483.5,
-        linear_spring(4743, 1.2),
-        zoned_damper([1500], []),
-        mount=None,
-        rod_friction=0.0,
-        linkage_friction=0.0,
-        tyre=tyre,
-    )
     road = manoeuvre.reference()
     times = np.linspace(0.2, 1.4, 13)
     exact = solve_ivp(
@@ -54,9 +47,9 @@ def test_fourth_order(model, tyre):
 
 def test_free_decay_is_the_matrix_exponential():
     """The linear quarter car after the road has moved: ``exp(A t)`` carries one state into the next."""
-    plant = build(load_vehicle("chapter3", "linear", LINEAR), "quarter_2dof")
+    plant = build(CAR.vehicle(), "quarter_2dof")
     run = simulate(plant, SmoothBump(duration=2.0, centre=0.5, width=0.08), step=5e-4)
-    k, c, kt, ms, mu = 4743 / 9.81 * (2 * np.pi * 1.2) ** 2, 1500.0, 176e3, 483.5, 39.5
+    k, c, kt, ms, mu = CAR.rate, CAR.damping, CAR.tyre, CAR.sprung, CAR.unsprung
     # state: body, wheel, their velocities, as departures from rest
     matrix = np.array(
         [[0, 0, 1, 0], [0, 0, 0, 1], [-k / ms, k / ms, -c / ms, c / ms], [k / mu, -(k + kt) / mu, c / mu, -c / mu]],

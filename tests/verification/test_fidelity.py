@@ -8,61 +8,40 @@ import pytest
 
 from manoeuvres import Bump, LateralForce, RoadStep
 from susp_mj import simulate
-from vehicles import load_vehicle
 from vehicles.mjcf import build
 
-from .reference import bump_road, zoned_damper
+from ..builders.cars import STOPS, STOPS_OF_FILE, LinearAxle, LinearCar
+from .reference import bump_road, constant_frequency_spring, constant_rate_spring, zoned_damper
 from .reference_car import AxleData, Car, CarData, Excitation, solve
 
 FRONT, REAR, ROLL = 1.25, 1.45, 620.0
 MASS = 1500.0
-STOPS = (-0.2, 0.2, 1e6)
-CAR = """\
-title = "Car of the tests"
-wheelbase = 2.7
-wheel_radius = 0.31
-[loads.ko]
-sprung_mass = 1500.0
-cg = [-1.25, 0.0, 0.27]
-inertia = [620.0, 2718.75, 3000.0]
-[front]
-track = 1.5
-spring_base = 1.5
-roll_centre_height = 0.06
-unsprung_mass = 40.0
-tyre = { kind = "spring", rate = 190e3 }
-spring = { kind = "linear", rate = 24e3, stops = { rebound = -0.2, compression = 0.2, rate = 1e6 } }
-damper = { kind = "zoned", rates = [2600.0, 1200.0], limits = [0.15], ratio = "1:2" }
-anti_roll_bar = { rate = 9000.0 }
-[rear]
-track = 1.5
-spring_base = 1.1
-roll_centre_height = 0.13
-unsprung_mass = 45.0
-tyre = { kind = "spring", rate = 200e3 }
-spring = { kind = "constant_frequency", frequency = 1.3, stops = { rebound = -0.2, compression = 0.2, rate = 1e6 } }
-damper = { kind = "zoned", rates = [2800.0, 1300.0], limits = [0.15], ratio = "1:2" }
-anti_roll_bar = { rate = 4000.0 }
-[sources]
-wheelbase = "estimated: a test"
-wheel_radius = "estimated: a test"
-loads = "estimated: a test"
-front = "estimated: a test"
-rear = "estimated: a test"
-"""
+CAR = LinearCar(
+    wheelbase=2.7,
+    wheel_radius=0.31,
+    loads={"ko": (MASS, (-FRONT, 0.0, 0.27), (ROLL, MASS * FRONT * REAR, 3000.0))},
+    front=LinearAxle(
+        rate=24e3, damping=2600.0, unsprung=40.0, tyre=190e3, bar=9000.0, track=1.5, spring_base=1.5, roll_centre=0.06
+    ),
+    rear=LinearAxle(
+        rate=24e3, damping=2800.0, unsprung=45.0, tyre=200e3, bar=4000.0, track=1.5, spring_base=1.1, roll_centre=0.13
+    ),
+)
+DIGRESSIVE = {"kind": "zoned", "limits": [0.15], "ratio": "1:2"}
+CURVED = {
+    "front.damper": {**DIGRESSIVE, "rates": [2600.0, 1200.0]},
+    "rear.damper": {**DIGRESSIVE, "rates": [2800.0, 1300.0]},
+    "rear.spring": {"kind": "constant_frequency", "frequency": 1.3, "stops": STOPS_OF_FILE},
+}
+"""What is not linear about the car."""
 STEP = RoadStep(height=0.03, start=0.1, rise_time=0.04, duration=1.5)
 BUMP = Bump(height=0.04, length=2.5, speed=15.0, start=0.1, duration=1.5)
 SLOW_STEP = RoadStep(height=0.02, start=0.1, rise_time=0.15, duration=1.0)
 SLOW_LEFT_STEP = SLOW_STEP.model_copy(update={"wheels": ("left",)})
 
 
-@pytest.fixture
-def car(tmp_path):
-    path = tmp_path / "car.toml"
-    path.write_text(CAR)
-    return lambda **overrides: load_vehicle(
-        path, overrides={key.replace("__", "."): value for key, value in overrides.items()}
-    )
+def car(**overrides):
+    return CAR.vehicle(CURVED | {key.replace("__", "."): value for key, value in overrides.items()})
 
 
 def apart(found, expected):
@@ -73,7 +52,7 @@ def apart(found, expected):
 
 
 @pytest.mark.parametrize("manoeuvre", [STEP, BUMP], ids=["step", "bump"])
-def test_a_car_whose_axles_decouple_is_two_quarter_cars(car, manoeuvre):
+def test_a_car_whose_axles_decouple_is_two_quarter_cars(manoeuvre):
     """Jyy = m l1 l2 and a road equal left and right: OM7 over each axle moves as the OM5 of that axle."""
     vehicle = car()
     whole = simulate(build(vehicle, "full_7dof"), manoeuvre)
@@ -89,7 +68,7 @@ def test_a_car_whose_axles_decouple_is_two_quarter_cars(car, manoeuvre):
     assert np.abs(whole["roll_angle"]).max() < 1e-12
 
 
-def test_the_axles_couple_with_another_pitch_inertia(car):
+def test_the_axles_couple_with_another_pitch_inertia():
     """The counterpart: the test above can tell."""
     vehicle = car(**{"loads.ko.inertia": [620.0, 2400.0, 3000.0]})
     whole, alone = (
@@ -99,21 +78,22 @@ def test_the_axles_couple_with_another_pitch_inertia(car):
     assert apart(whole["body_displacement"] - FRONT * whole["pitch_angle"], alone["body_displacement"]) > 1e-3
 
 
-def constant_frequency(frequency):
-    growth = (2 * np.pi * frequency) ** 2 / 9.81
-    return lambda preload: lambda x: preload * np.exp(growth * x)
-
-
 def side_of(pitch_inertia):
     """The left half of the car in the reference: half the body, two wheels with mass, heave and pitch."""
     front = AxleData(
-        lambda preload: lambda x: preload + 24e3 * x,
+        lambda preload: constant_rate_spring(preload, 24e3),
         zoned_damper([2600, 1200], [0.15], 1, 2),
         STOPS,
         unsprung=40.0,
         tyre=190e3,
     )
-    rear = AxleData(constant_frequency(1.3), zoned_damper([2800, 1300], [0.15], 1, 2), STOPS, unsprung=45.0, tyre=200e3)
+    rear = AxleData(
+        lambda preload: constant_frequency_spring(preload, 1.3),
+        zoned_damper([2800, 1300], [0.15], 1, 2),
+        STOPS,
+        unsprung=45.0,
+        tyre=200e3,
+    )
     data = CarData(2.7, 0.31, {"ko": (MASS, (-FRONT, 0.0, 0.27), (ROLL, pitch_inertia))}, front, rear)
     side = Car.of(data, "full_7dof")
     left = tuple(wheel for wheel in side.wheels if wheel.y > 0)
@@ -123,7 +103,7 @@ def side_of(pitch_inertia):
     )
 
 
-def test_a_symmetric_car_is_twice_its_side(car):
+def test_a_symmetric_car_is_twice_its_side():
     """OM7 on a road equal left and right against a half car of four degrees of freedom."""
     whole = simulate(build(car(**{"loads.ko.inertia": [620.0, 2300.0, 3000.0]}), "full_7dof"), BUMP)
     half = solve(
@@ -139,7 +119,7 @@ def test_a_symmetric_car_is_twice_its_side(car):
 
 
 @pytest.mark.parametrize("manoeuvre", [STEP, BUMP], ids=["step", "bump"])
-def test_a_side_on_massless_wheels_is_half_a_symmetric_car(car, manoeuvre):
+def test_a_side_on_massless_wheels_is_half_a_symmetric_car(manoeuvre):
     """OM3 = OM4 on a road equal left and right."""
     vehicle = car(**{"loads.ko.inertia": [620.0, 2300.0, 3000.0]})
     side, whole = (simulate(build(vehicle, model), manoeuvre) for model in ("pitch_2dof", "full_3dof"))
@@ -152,7 +132,7 @@ def test_a_side_on_massless_wheels_is_half_a_symmetric_car(car, manoeuvre):
 
 
 @pytest.mark.parametrize("axle", ["front", "rear"])
-def test_a_massless_car_whose_axles_decouple_is_two_quarter_cars(car, axle):
+def test_a_massless_car_whose_axles_decouple_is_two_quarter_cars(axle):
     """Jyy = m l1 l2: OM4 over each axle moves as OM1."""
     vehicle = car()
     whole, alone = (
@@ -165,7 +145,7 @@ def test_a_massless_car_whose_axles_decouple_is_two_quarter_cars(car, axle):
 
 
 @pytest.mark.parametrize(("beam", "four_wheels"), [("axle_4dof", "full_7dof"), ("axle_2dof", "full_3dof")])
-def test_an_axle_is_a_car_whose_rear_cannot_hold_it_upright(car, beam, four_wheels):
+def test_an_axle_is_a_car_whose_rear_cannot_hold_it_upright(beam, four_wheels):
     """OM6 and OM2 front, springs at the wheels, against OM7 and OM4 on three wheels, so to speak.
 
     A beam with its mass in the wheels is two single wheels. The car gets the front axle's share of roll inertia as a
@@ -204,7 +184,7 @@ STIFF, LIGHT = 4e7, 0.4
         ("full_3dof", "full_7dof", None, LateralForce(start=0.1, duration=1.0)),
     ],
 )
-def test_stiff_tyres_and_light_wheels_are_no_tyres(car, simple, full, axle, manoeuvre):
+def test_stiff_tyres_and_light_wheels_are_no_tyres(simple, full, axle, manoeuvre):
     """OM5, OM6 and OM7 tend to OM1, OM2 and OM4: the body's difference is small, and falls as the compliance of the
     tyre does."""
     step = 5e-5

@@ -15,8 +15,8 @@ from susp_mj.simulation import simulate
 from vehicles.mjcf import HANDLING, build
 from vehicles.reading import load_vehicle
 
+from ..builders.cars import PlainCar
 from ..builders.manoeuvres import Driven
-from .plain_car import PlainCar
 
 FORMS = {form["id"]: form for form in json.loads((Path(__file__).parent / "closed_forms.json").read_text())}
 RATIO = PlainCar.ratio
@@ -32,7 +32,7 @@ def turn(angle: float, rise: float = 0.5, start: float = 0.5):
 
 
 @pytest.fixture(scope="module")
-def bicycle(tmp_path_factory):
+def bicycle():
     given = FORMS["bicycle_2090"]["inputs"]
     car = PlainCar(
         mass=given["m"],
@@ -41,7 +41,7 @@ def bicycle(tmp_path_factory):
         rear=given["b"],
         cornering=(given["Cf"], given["Cr"]),
     )
-    return build(car.vehicle(tmp_path_factory.mktemp("bicycle")), HANDLING)
+    return build(car.vehicle(), HANDLING)
 
 
 def test_the_plain_car_has_the_single_track_models_mass_and_yaw_inertia(bicycle):
@@ -79,7 +79,7 @@ def test_understeer_gradient_of_the_single_track_model(bicycle, speed):
     assert gradient == pytest.approx(expected, rel=5e-3)
 
 
-def test_step_response_follows_the_single_track_model_in_time(tmp_path):
+def test_step_response_follows_the_single_track_model_in_time():
     """Yaw rate and side slip of the linear two-state model, integrated on its own, with the tyres' relaxation length as
     a lag.
 
@@ -93,7 +93,7 @@ def test_step_response_follows_the_single_track_model_in_time(tmp_path):
         mass=g["m"], yaw_inertia=g["Iz"], front=g["a"], rear=g["b"], cornering=(g["Cf"], g["Cr"]), height=0.33,
         wheel_rate=(1e6, 1e6), damping=(3e4, 3e4), tyre_rate=3e6,
     )  # fmt: skip
-    run = simulate(build(stiff.vehicle(tmp_path), HANDLING), Driven(duration=3.0, speed=v, inputs=inputs))
+    run = simulate(build(stiff.vehicle(), HANDLING), Driven(duration=3.0, speed=v, inputs=inputs))
 
     moments, angles = np.array(inputs["steering_wheel_angle"]).T
 
@@ -116,7 +116,7 @@ def test_step_response_follows_the_single_track_model_in_time(tmp_path):
 # ---- roll and load transfer
 
 
-def test_roll_and_load_transfer_of_the_closed_form(tmp_path):
+def test_roll_and_load_transfer_of_the_closed_form():
     """Light wheels of little inertia (their gyroscopic moment is no part of the formula), stiff tyres, straight wheel
     paths."""
     form = FORMS["load_transfer"]
@@ -136,9 +136,7 @@ def test_roll_and_load_transfer_of_the_closed_form(tmp_path):
         cornering=(150000.0, 150000.0),
         damping=(6000.0, 5000.0),
     )
-    run = simulate(
-        build(car.vehicle(tmp_path), HANDLING), Driven(duration=8.0, speed=20.0, inputs=turn(0.0531, rise=2.0))
-    )
+    run = simulate(build(car.vehicle(), HANDLING), Driven(duration=8.0, speed=20.0, inputs=turn(0.0531, rise=2.0)))
     share = g["ay"] / run["lateral_acceleration"][-1]
     assert share == pytest.approx(1.0, abs=0.02)
     assert math.degrees(run["roll_angle"][-1]) * share == pytest.approx(expected["phi_deg"], rel=0.02)
@@ -147,13 +145,12 @@ def test_roll_and_load_transfer_of_the_closed_form(tmp_path):
         assert found * share == pytest.approx(transfer, rel=0.02)
 
 
-def test_a_turning_wheel_tilts_the_car_by_its_gyroscopic_moment(tmp_path):
+def test_a_turning_wheel_tilts_the_car_by_its_gyroscopic_moment():
     """Heavier wheels by 4 dJ: the load transfer grows by ``4 dJ w r / t``, w their speed and r the yaw rate."""
     runs = []
     for inertia in (0.05, 3.05):
-        (tmp_path / f"{inertia}").mkdir()
         car = PlainCar(wheel_inertia=inertia, wheel_rate=(4e5, 4e5), tyre_rate=1e6, damping=(2e4, 2e4))
-        plant = build(car.vehicle(tmp_path / f"{inertia}"), HANDLING)
+        plant = build(car.vehicle(), HANDLING)
         runs.append(simulate(plant, Driven(duration=6.0, speed=20.0, inputs=turn(0.02))))
     transfer = [sum(run[f"{a}r_wheel_load"][-1] - run[f"{a}l_wheel_load"][-1] for a in "fr") / 2 for run in runs]
     moment = 4 * 3.0 * runs[1]["fl_wheel_speed"][-1] * runs[1]["yaw_rate"][-1]
@@ -163,10 +160,10 @@ def test_a_turning_wheel_tilts_the_car_by_its_gyroscopic_moment(tmp_path):
 # ---- energy
 
 
-def test_coast_down_of_the_plain_car_balances(tmp_path):
+def test_coast_down_of_the_plain_car_balances():
     """Kinetic energy lost = work of air, rolling resistance, engine and sliding, 0.5 % over ten seconds."""
     resistance, drag = 0.012, 0.3
-    vehicle = PlainCar(rolling_resistance=resistance, drag=drag).vehicle(tmp_path)
+    vehicle = PlainCar(rolling_resistance=resistance, drag=drag).vehicle()
     run = simulate(build(vehicle, HANDLING), Driven(duration=10.0, speed=30.0, control=0.0))
     spin = {c: run[f"{c}_wheel_speed"] for c in ("fl", "fr", "rl", "rr")}
     speed = run["longitudinal_velocity"]

@@ -12,8 +12,9 @@ from susp_mj.errors import InputError, SimulationError
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
+from ..builders.cars import LINEAR_CAR
 from .reference_car import Car, Excitation
-from .test_oscillation_models import LINEAR, LINEAR_DATA, PLACES, S_CLASS
+from .thesis_cars import PLACES, S_CLASS
 
 G = 9.81
 MODELS = [("quarter_1dof", "front"), ("quarter_1dof", "rear"), ("quarter_2dof", "front"), ("quarter_2dof", "rear")]
@@ -115,19 +116,13 @@ def test_a_load_beside_the_middle(model, axle):
         assert run[f"{wheel.station}_wheel_load"][0] == pytest.approx(value, rel=1e-3)
 
 
-def test_leaning_by_hand(tmp_path):
+def test_leaning_by_hand():
     """On linear springs at the wheels and no tyres: ``(K - m g h) phi = -m g y`` about the body's middle."""
-    path = tmp_path / "car.toml"
-    path.write_text(LINEAR)
-    run = simulate(build(load_vehicle(path), "full_3dof", load="one_sided"), NOTHING)
-    mass, (x, y, z), _ = LINEAR_DATA.loads["one_sided"]
-    share = {"front": (2.9 + x) / 2.9, "rear": -x / 2.9}
-    stiffness = sum(
-        (rate + axle.bar) * axle.track**2 / 2 for axle, rate in ((LINEAR_DATA.front, 24e3), (LINEAR_DATA.rear, 21e3))
-    )
-    topple = sum(
-        mass * G * share[each] * (0.31 + z - getattr(LINEAR_DATA, each).roll_centre) for each in ("front", "rear")
-    )
+    run = simulate(build(LINEAR_CAR.vehicle(), "full_3dof", load="one_sided"), NOTHING)
+    mass, (x, y, z), _ = LINEAR_CAR.loads["one_sided"]
+    axles = ((LINEAR_CAR.front, (2.9 + x) / 2.9), (LINEAR_CAR.rear, -x / 2.9))
+    stiffness = sum((axle.rate + axle.bar) * axle.track**2 / 2 for axle, _ in axles)
+    topple = sum(mass * G * share * (0.31 + z - axle.roll_centre) for axle, share in axles)
     assert run["roll_angle"][0] == pytest.approx(-mass * G * y / (stiffness - topple), rel=1e-6)
 
 

@@ -9,8 +9,9 @@ import pytest
 
 from manoeuvres import LateralForce
 from susp_mj import simulate
-from vehicles import load_vehicle
 from vehicles.mjcf import build
+
+from ..builders.cars import LinearAxle, LinearCar
 
 # sprung mass, height of its centre of gravity over the ground, roll centres, distances of the axles, track, roll
 # stiffnesses
@@ -19,35 +20,13 @@ MF, MR = M * B / (A + B), M * A / (A + B)
 ABOVE = (MF * (H - ZF) + MR * (H - ZR)) / M
 # the closed form's figures: roll in degrees, load moved from left to right on each axle
 PHI, DF, DR = 5.676213497441539, 3916.617178909782, 2986.0735093769254
-CAR = """\
-title = "Car of the tests"
-wheelbase = 3.081
-wheel_radius = 0.32
-[loads.ko]
-sprung_mass = 1913.0
-cg = [-1.5572, 0.0, 0.3259]
-inertia = [769.0, 3928.0, 4315.0]
-[front]
-track = 1.4
-roll_centre_height = 0.08
-unsprung_mass = 39.5
-tyre = { kind = "spring", rate = 176e3 }
-spring = { kind = "linear", rate = 51020.40816326531, stops = { rebound = -0.2, compression = 0.2, rate = 1e6 } }
-damper = { kind = "zoned", rates = [6000.0] }
-[rear]
-track = 1.4
-roll_centre_height = 0.12
-unsprung_mass = 39.5
-tyre = { kind = "spring", rate = 176e3 }
-spring = { kind = "linear", rate = 34693.87755102041, stops = { rebound = -0.2, compression = 0.2, rate = 1e6 } }
-damper = { kind = "zoned", rates = [6000.0] }
-[sources]
-wheelbase = "estimated: a test"
-wheel_radius = "estimated: a test"
-loads = "estimated: a test"
-front = "estimated: a test"
-rear = "estimated: a test"
-"""
+CAR = LinearCar(
+    wheelbase=A + B,
+    wheel_radius=0.32,
+    loads={"ko": (M, (-A, 0.0, H - 0.32), (769.0, 3928.0, 4315.0))},
+    front=LinearAxle(rate=2 * KF / T**2, damping=6000.0, track=T, roll_centre=ZF),
+    rear=LinearAxle(rate=2 * KR / T**2, damping=6000.0, track=T, roll_centre=ZR),
+)
 
 
 def by_hand(front, rear, acceleration=AY):
@@ -56,27 +35,19 @@ def by_hand(front, rear, acceleration=AY):
     return phi, (front * phi + MF * acceleration * ZF) / T, (rear * phi + MR * acceleration * ZR) / T
 
 
-@pytest.fixture
-def steady(tmp_path):
-    path = tmp_path / "car.toml"
-    path.write_text(CAR)
-
-    def found(model, axle=None, acceleration=AY, **overrides):
-        """Roll angle and transfers at the end of a run that has come to rest."""
-        vehicle = load_vehicle(path, overrides={key.replace("__", "."): value for key, value in overrides.items()})
-        run = simulate(
-            build(vehicle, model, axle=axle), LateralForce(acceleration=acceleration, duration=8.0, rise_time=1.0)
-        )
-        assert np.abs(run["roll_acceleration"][-500:]).max() < 1e-6
-        transfer = {
-            each[0]: (run[f"{each[0]}r_wheel_load"][-1] - run[f"{each[0]}l_wheel_load"][-1]) / 2
-            for each in ("front", "rear")
-            if f"{each[0]}l_wheel_load" in run.channels
-        }
-        assert min(run[name][-1] for name in run.channels if name.endswith("wheel_load")) > 100.0
-        return run["roll_angle"][-1], transfer
-
-    return found
+def steady(model, axle=None, acceleration=AY, **overrides):
+    """Roll angle and transfers at the end of a run that has come to rest."""
+    vehicle = CAR.vehicle({key.replace("__", "."): value for key, value in overrides.items()})
+    turn = LateralForce(acceleration=acceleration, duration=8.0, rise_time=1.0)
+    run = simulate(build(vehicle, model, axle=axle), turn)
+    assert np.abs(run["roll_acceleration"][-500:]).max() < 1e-6
+    transfer = {
+        each[0]: (run[f"{each[0]}r_wheel_load"][-1] - run[f"{each[0]}l_wheel_load"][-1]) / 2
+        for each in ("front", "rear")
+        if f"{each[0]}l_wheel_load" in run.channels
+    }
+    assert min(run[name][-1] for name in run.channels if name.endswith("wheel_load")) > 100.0
+    return run["roll_angle"][-1], transfer
 
 
 def test_by_hand_is_the_closed_form():
@@ -85,13 +56,13 @@ def test_by_hand_is_the_closed_form():
     assert (front, rear) == pytest.approx((DF, DR), rel=1e-9)
 
 
-def test_massless_wheels(steady):
+def test_massless_wheels():
     phi, moved = steady("full_3dof")
     assert math.degrees(phi) == pytest.approx(PHI, rel=1e-6)
     assert (moved["f"], moved["r"]) == pytest.approx((DF, DR), rel=1e-6)
 
 
-def test_stiff_tyres(steady):
+def test_stiff_tyres():
     """The closed form knows no tyres: within 2 % on tyres a hundred times as stiff as the springs."""
     phi, moved = steady("full_7dof", front__tyre__rate=5e6, rear__tyre__rate=5e6)
     assert math.degrees(phi) == pytest.approx(PHI, rel=0.02)
@@ -100,7 +71,7 @@ def test_stiff_tyres(steady):
 
 
 @pytest.mark.parametrize("acceleration", [AY - 2.0, -AY + 2.0], ids=["left turn", "right turn"])
-def test_tyres_in_series(steady, acceleration):
+def test_tyres_in_series(acceleration):
     """With tyres each side gives way twice; the links tilt the wheels' line on the tyres besides.
 
     Axle by axle, d the load moved and f the part of it that passes through the springs: tyres tilt by ``2 d / (k_t
@@ -120,14 +91,14 @@ def test_tyres_in_series(steady, acceleration):
 
 @pytest.mark.parametrize(("model", "tolerance"), [("full_3dof", 1e-8), ("full_7dof", 1e-3)])
 @pytest.mark.parametrize("bar", [0.0, 8000.0])
-def test_all_of_the_overturning_moment_reaches_the_ground(steady, model, tolerance, bar):
+def test_all_of_the_overturning_moment_reaches_the_ground(model, tolerance, bar):
     """``dFz_f t + dFz_r t = m a_y h + m g h_ra phi``, whatever springs and bars do with it."""
     phi, moved = steady(model, acceleration=5.0, rear__anti_roll_bar__rate=bar)
     assert (moved["f"] + moved["r"]) * T == pytest.approx(M * 5.0 * H + M * G * ABOVE * phi, rel=tolerance)
 
 
 @pytest.mark.parametrize("model", ["full_3dof", "full_7dof"])
-def test_a_bar_moves_load_to_its_axle(steady, model):
+def test_a_bar_moves_load_to_its_axle(model):
     """A bar of rate c adds the roll stiffness ``c t²/2`` to its axle alone."""
     phi, moved = steady(
         model, acceleration=4.0, front__tyre__rate=5e6, rear__tyre__rate=5e6, rear__anti_roll_bar__rate=10e3
@@ -140,7 +111,7 @@ def test_a_bar_moves_load_to_its_axle(steady, model):
 
 @pytest.mark.parametrize("base", [1.4, 1.0])
 @pytest.mark.parametrize(("model", "tolerance"), [("axle_2dof", 1e-6), ("axle_4dof", 0.02)])
-def test_rigid_axle(steady, model, tolerance, base):
+def test_rigid_axle(model, tolerance, base):
     """The front axle alone: springs at the spring base, roll stiffness ``k b²/2``, the bar at the wheels."""
     rate = 70e3
     overrides = {

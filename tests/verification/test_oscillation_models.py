@@ -12,132 +12,12 @@ from susp_mj import simulate
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
-from .reference import bump_road, constant_frequency_spring, progressive_spring, step_road, zoned_damper
-from .reference_car import AxleData, Car, CarData, Excitation, solve
+from ..builders.cars import LINEAR_CAR
+from .reference import bump_road, step_road
+from .reference_car import Car, Excitation, solve
+from .thesis_cars import PLACES, S_CLASS
 
-LINEAR = """\
-title = "Linear car of the tests"
-wheelbase = 2.9
-wheel_radius = 0.31
-[loads.ko]
-sprung_mass = 1500.0
-cg = [-1.30, 0.0, 0.27]
-inertia = [620.0, 2500.0, 2900.0]
-[loads.empty]
-sprung_mass = 1310.0
-cg = [-1.22, 0.0, 0.25]
-inertia = [600.0, 2350.0, 2700.0]
-[loads.full]
-sprung_mass = 1790.0
-cg = [-1.49, 0.0, 0.29]
-inertia = [640.0, 2900.0, 3300.0]
-[loads.one_sided]
-sprung_mass = 1600.0
-cg = [-1.38, 0.1, 0.28]
-inertia = [630.0, 2600.0, 3000.0]
-[front]
-track = 1.52
-spring_base = 1.30
-roll_centre_height = 0.06
-unsprung_mass = 42.0
-tyre = { kind = "spring", rate = 190e3 }
-spring = { kind = "linear", rate = 24e3, stops = { rebound = -0.2, compression = 0.2, rate = 1e6 } }
-damper = { kind = "zoned", rates = [1900.0] }
-anti_roll_bar = { rate = 9000.0 }
-[rear]
-track = 1.47
-spring_base = 1.05
-roll_centre_height = 0.13
-unsprung_mass = 47.0
-tyre = { kind = "spring", rate = 205e3 }
-spring = { kind = "linear", rate = 21e3, stops = { rebound = -0.2, compression = 0.2, rate = 1e6 } }
-damper = { kind = "zoned", rates = [2100.0] }
-anti_roll_bar = { rate = 4000.0 }
-[sources]
-wheelbase = "estimated: a test"
-wheel_radius = "estimated: a test"
-loads = "estimated: a test"
-front = "estimated: a test"
-rear = "estimated: a test"
-"""
-WIDE = (-0.2, 0.2, 1e6)
-LINEAR_DATA = CarData(
-    2.9,
-    0.31,
-    {
-        "ko": (1500.0, (-1.30, 0.0, 0.27), (620.0, 2500.0)),
-        "empty": (1310.0, (-1.22, 0.0, 0.25), (600.0, 2350.0)),
-        "full": (1790.0, (-1.49, 0.0, 0.29), (640.0, 2900.0)),
-        "one_sided": (1600.0, (-1.38, 0.1, 0.28), (630.0, 2600.0)),
-    },
-    AxleData(
-        lambda preload: lambda x: preload + 24e3 * x,
-        zoned_damper([1900], []),
-        WIDE,
-        bar=9000.0,
-        track=1.52,
-        base=1.30,
-        roll_centre=0.06,
-        unsprung=42.0,
-        tyre=190e3,
-    ),
-    AxleData(
-        lambda preload: lambda x: preload + 21e3 * x,
-        zoned_damper([2100], []),
-        WIDE,
-        bar=4000.0,
-        track=1.47,
-        base=1.05,
-        roll_centre=0.13,
-        unsprung=47.0,
-        tyre=205e3,
-    ),
-)
-
-
-def s_class_axle(frequency, rebound_force, damper, bar, base, roll_centre):
-    """An axle of the shipped car: constant frequency in compression, straight in rebound, mount and frictions."""
-
-    def spring(preload):
-        top = constant_frequency_spring(preload, frequency)(0.1)
-        return progressive_spring(
-            preload, frequency, lower=(-0.1, rebound_force), upper=(0.1, top), onset=0.0, exponent=2.0
-        )
-
-    return AxleData(spring, damper, (-0.1, 0.1, 1e7), 1.5e6, 25.0, 150.0, bar, 1.4, base, roll_centre)
-
-
-# values of the shipped car that are only estimated, held here whatever becomes of them there
-PLACES = {
-    "front.roll_centre_height": 0.08,
-    "rear.roll_centre_height": 0.12,
-    "front.spring_base": 1.4,
-    "rear.spring_base": 1.1,
-    "wheel_radius": 0.32,
-}
-S_CLASS_LOADS = {
-    "ko": (1913.0, (-1.5572, 0.0, 0.3259), (769.0, 3928.0)),
-    "empty": (1663.0, (-1.5244, 0.0, 0.3010), (768.0, 3810.0)),
-    "full": (2063.0, (-1.6680, 0.0, 0.3022), (769.0, 4276.0)),
-}
-DAMPER_3, DAMPER_4 = zoned_damper([1500, 900], [0.2], 1, 2), zoned_damper([4000, 1200], [0.2], 1, 2)
-S_CLASS = {
-    "configuration_3": CarData(
-        3.081,
-        0.32,
-        S_CLASS_LOADS,
-        s_class_axle(1.2, 2211.0, DAMPER_3, 25286.0, 1.4, 0.08),
-        s_class_axle(1.1, 3017.0, DAMPER_3, 14387.0, 1.1, 0.12),
-    ),
-    "configuration_4": CarData(
-        3.081,
-        0.32,
-        S_CLASS_LOADS,
-        s_class_axle(1.5, 675.0, DAMPER_4, 7118.0, 1.4, 0.08),
-        s_class_axle(1.3, 1551.0, DAMPER_4, 0.0, 1.1, 0.12),
-    ),
-}
-
+LINEAR_DATA = LINEAR_CAR.reference()
 CARS = {"linear": LINEAR_DATA, **S_CLASS}
 DURATION = 1.5
 FINE = 2.5e-4
@@ -194,14 +74,12 @@ SIDES, LENGTH = ("axle_2dof", "full_3dof", "axle_4dof", "full_7dof"), ("pitch_2d
 NEEDS = {"left step": SIDES, "lateral": SIDES, "braking": LENGTH}
 
 
-@pytest.fixture(scope="module")
-def vehicle(tmp_path_factory):
-    path = tmp_path_factory.mktemp("cars") / "linear.toml"
-    path.write_text(LINEAR)
-    return lambda name: load_vehicle(path) if name == "linear" else load_vehicle("s_class", name, PLACES)
+def vehicle(name):
+    """The product's car of a name in `CARS`."""
+    return LINEAR_CAR.vehicle() if name == "linear" else load_vehicle("s_class", name, PLACES)
 
 
-def histories(vehicle, name, model, axle, load, manoeuvre, *, step=FINE, duration=DURATION):
+def histories(name, model, axle, load, manoeuvre, *, step=FINE, duration=DURATION):
     """The product's run (None: at the step it chooses by itself), the reference's history and the reference's car."""
     product, reference = MANOEUVRES[manoeuvre]
     plant = build(vehicle(name), model, load=load, axle=axle)
@@ -253,8 +131,8 @@ COMBINATIONS += [("linear", model, axle, "one_sided", "right turn") for model, a
 
 
 @pytest.mark.parametrize(("name", "model", "axle", "load", "manoeuvre"), COMBINATIONS, ids=str)
-def test_motion_and_wheel_loads(vehicle, name, model, axle, load, manoeuvre):
-    run, expected, car = histories(vehicle, name, model, axle, load, manoeuvre)
+def test_motion_and_wheel_loads(name, model, axle, load, manoeuvre):
+    run, expected, car = histories(name, model, axle, load, manoeuvre)
     found = deviations(run, expected, car)
     assert max(found.values()) < (1e-6 if name == "linear" else 1e-3), found
     assert expected.load.min() > 0.0, "the wheels stay on the road"
@@ -264,9 +142,9 @@ def test_motion_and_wheel_loads(vehicle, name, model, axle, load, manoeuvre):
 
 @pytest.mark.parametrize("name", ["linear", "configuration_3"])
 @pytest.mark.parametrize("model", ["full_3dof", "full_7dof"])
-def test_wheels_that_leave_the_road(vehicle, name, model):
+def test_wheels_that_leave_the_road(name, model):
     """The right wheels drop off a kerb faster than they can follow, or than a massless one is pushed."""
-    run, expected, car = histories(vehicle, name, model, None, "ko", "right drop")
+    run, expected, car = histories(name, model, None, "ko", "right drop")
     assert (expected.load[:, 1] == 0.0).any()
     found = deviations(run, expected, car)
     assert max(value for channel, value in found.items() if "load" not in channel) < 1e-3, found
@@ -278,16 +156,16 @@ def test_wheels_that_leave_the_road(vehicle, name, model):
 
 
 @pytest.mark.parametrize(("name", "model"), [(n, m) for n in S_CLASS for m in ("full_7dof", "full_3dof")])
-def test_the_road_cannot_pull_in_a_turn(vehicle, name, model):
+def test_the_road_cannot_pull_in_a_turn(name, model):
     """Links and springs together lift an inner wheel; its load ends at zero, whatever share of it the links carry."""
-    run, expected, car = histories(vehicle, name, model, None, "ko", "hard turn", duration=1.0)
+    run, expected, car = histories(name, model, None, "ko", "hard turn", duration=1.0)
     assert (expected.load == 0.0).any()
     assert all(run[f"{wheel.station}_wheel_load"].min() >= 0.0 for wheel in car.wheels)
     found = deviations(run, expected, car)
     assert max(found.values()) < 1e-3, found
 
 
-def test_a_massless_beam_stays_on_the_road_while_one_spring_seat_pulls(vehicle):
+def test_a_massless_beam_stays_on_the_road_while_one_spring_seat_pulls():
     """The road cannot pull on a wheel; a seat inside the track may pull on the beam as long as both wheels press on the
     road."""
     drop = RoadStep(height=-0.035, start=0.1, rise_time=0.03, duration=0.6, wheels=("right",))
@@ -304,20 +182,18 @@ def test_a_massless_beam_stays_on_the_road_while_one_spring_seat_pulls(vehicle):
 
 @pytest.mark.parametrize("manoeuvre", ["step", "bump"])
 @pytest.mark.parametrize(("model", "axle"), MODELS)
-def test_the_default_step_is_short_enough(vehicle, model, axle, manoeuvre):
+def test_the_default_step_is_short_enough(model, axle, manoeuvre):
     """The step that a user gets without asking resolves the mounts of the shipped car."""
-    run, expected, car = histories(vehicle, "configuration_3", model, axle, "ko", manoeuvre, step=None, duration=0.8)
+    run, expected, car = histories("configuration_3", model, axle, "ko", manoeuvre, step=None, duration=0.8)
     found = deviations(run, expected, car)
     assert max(found.values()) < 1e-3, found
 
 
 @pytest.mark.parametrize(("model", "axle"), MODELS)
-def test_accelerations(vehicle, model, axle):
+def test_accelerations(model, axle):
     """Of the body, the wheels and the driver's seat; the seat of the shipped car lies 1.45 m behind the front axle,
     0.38 m left."""
-    run, expected, car = histories(
-        vehicle, "configuration_3", model, axle, "ko", "left step" if model in SIDES else "step"
-    )
+    run, expected, car = histories("configuration_3", model, axle, "ko", "left step" if model in SIDES else "step")
     pitching, rolling = expected.pitch_acceleration, expected.roll_acceleration
     pairs = {"body_acceleration": expected.acceleration}
     if "pitch" in car.freedoms:
@@ -339,7 +215,7 @@ MIRROR = {"fl": "fr", "fr": "fl", "rl": "rr", "rr": "rl"}
 
 @pytest.mark.parametrize("name", ["linear", "configuration_3"])
 @pytest.mark.parametrize(("model", "axle"), [each for each in MODELS if each[0] in SIDES])
-def test_left_and_right_mirror(vehicle, name, model, axle):
+def test_left_and_right_mirror(name, model, axle):
     plant = build(vehicle(name), model, axle=axle)
     left, right = (simulate(plant, RoadStep(height=STEP, duration=1.0, wheels=(side,))) for side in ("left", "right"))
     assert np.ptp(left["roll_angle"]) > 5e-3
@@ -351,7 +227,7 @@ def test_left_and_right_mirror(vehicle, name, model, axle):
         np.testing.assert_allclose(right[other], sign * left[channel], rtol=0, atol=1e-12 * scale, err_msg=channel)
 
 
-def test_energy_is_only_lost(vehicle):
+def test_energy_is_only_lost():
     """Once the road lies still, the energy of body, wheels, springs, bars and tyres falls by what the dampers take.
 
     The body sinks as it rolls about its axis.

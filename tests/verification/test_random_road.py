@@ -11,29 +11,14 @@ from manoeuvres import RandomRoad
 from susp_mj import simulate
 from susp_mj.meaning import Input
 from susp_mj.roads import ROAD_CLASSES, RandomTracks
-from vehicles import load_vehicle
 from vehicles.mjcf import build
+
+from ..builders.cars import LinearQuarterCar
 
 TABLE = {"A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6, "F": 16384e-6, "G": 65536e-6, "H": 262144e-6}
 """ISO 8608: geometric mean of Gd(n0) [m³], n0 = 0.1 cycles/m."""
 PER_NOISE = {"acceleration": 1155.9847603127964, "travel": 0.2179166666666771, "load": 653761384.0521232}
 """Variance per white-noise strength W of the quarter car with c = 1200 N s/m: Lyapunov equation."""
-
-LINEAR_CAR = """
-title = "linear quarter car without friction and mount"
-[loads.ko]
-corner_mass = { rear = 483.5 }
-[rear]
-unsprung_mass = 39.5
-tyre = { kind = "spring", rate = 176000 }
-[rear.spring]
-kind = "linear"
-rate = 27486.45347285782
-stops = { rebound = -0.5, compression = 0.5 }
-[rear.damper]
-kind = "zoned"
-rates = [1200]
-"""
 
 
 def test_road_classes_are_those_of_the_standard():
@@ -86,11 +71,9 @@ def test_rear_follows_front_and_seed_makes_the_road():
     assert np.abs(front - other).max() > 1e-3
 
 
-def test_white_noise_variances_of_the_quarter_car(tmp_path):
+def test_white_noise_variances_of_the_quarter_car():
     """Variances on a long random road within 3 % of the closed form; W = 2 pi² n0² Gd(n0) v."""
-    car = tmp_path / "linear.toml"
-    car.write_text(LINEAR_CAR)
-    plant = build(load_vehicle(car), "quarter_2dof")
+    plant = build(LinearQuarterCar().vehicle(), "quarter_2dof")
     speed = 20.0
     noise = 2 * np.pi**2 * 0.1**2 * TABLE["C"] * speed
     runs = [
