@@ -13,9 +13,11 @@ from manoeuvres import Bump
 from susp_mj import simulate
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.names import CORNERS, channel_name
-from susp_mj.run import Run, described
+from susp_mj.run import Run
 from vehicles import load_vehicle
 from vehicles.mjcf import build
+
+from .runs import run_of
 
 SETS = {"linear": "linear", "nonlinear": "non-linear", "soft_linear": "linear, soft"}
 
@@ -42,10 +44,10 @@ def compare(
 
 def on_four_wheels(run: Run) -> Run:
     """The same run as if a car with four wheels had recorded it; the rear comes 0.1 s later."""
-    channels = {name: each for name, each in run.channels.items() if each.quantity.startswith("body")}
+    channels = {name: each.values for name, each in run.channels.items() if each.quantity.startswith("body")}
     for each in run.channels.values():
         if not each.quantity.startswith("body"):
             for corner in CORNERS:
                 values = np.roll(each.values, 100 if corner.startswith("r") else 0)
-                channels[channel_name(corner, each.quantity)] = described(each.quantity, values, corner)
-    return Run(run.time, channels, {**run.meta, "travel": {corner: run.meta["travel"][""] for corner in CORNERS}})
+                channels[channel_name(corner, each.quantity)] = values
+    return run_of(run.time, channels, {**run.meta, "travel": {corner: run.meta["travel"][""] for corner in CORNERS}})

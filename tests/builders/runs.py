@@ -1,8 +1,10 @@
-"""Made-up runs of a car that drives freely, of which everything is known in closed form, for numbers and plots."""
+"""Made-up runs: of channels as given, and of a car that drives freely, of which everything is known in closed form."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.signal import lsim
@@ -12,8 +14,8 @@ from evaluation.numbers import NUMBERS, evaluate
 from susp_mj.features import as_json
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
-from susp_mj.names import CORNERS
-from susp_mj.run import Run, described
+from susp_mj.names import CORNERS, QUANTITIES
+from susp_mj.run import Channel, Run, described
 
 _ZERO = (
     *(
@@ -28,6 +30,27 @@ _ZERO = (
     *("longitudinal_acceleration", "body_displacement", "body_acceleration", "roll_angle", "pitch_angle"),
 )
 STATIC = {"fl": 5500.0, "fr": 5500.0, "rl": 5000.0, "rr": 5000.0}
+
+
+def run_of(time: np.ndarray, channels: Mapping[str, Any], meta: Mapping[str, Any] | None = None) -> Run:
+    """A run of channels by full name (``fl_wheel_load``); a number stands for a channel that does not change."""
+    return Run(time, {name: _channel(name, values, time) for name, values in channels.items()}, meta or {})
+
+
+def changed(run: Run, **channels: Any) -> Run:
+    """The run with other channels in place of its own, or beside them."""
+    return replace(run, channels={**run.channels, **run_of(run.time, channels).channels})
+
+
+def without(run: Run, *names: str) -> Run:
+    """The run less some channels."""
+    return replace(run, channels={name: each for name, each in run.channels.items() if name not in names})
+
+
+def _channel(name: str, values: Any, time: np.ndarray) -> Channel:
+    quantity = name if name in QUANTITIES else name.partition("_")[2]
+    station = name.removesuffix(quantity).removesuffix("_")
+    return described(quantity, np.broadcast_to(np.asarray(values, float), time.shape).copy(), station)
 
 
 def driven(manoeuvre: Manoeuvre, quantity: str, time: np.ndarray) -> np.ndarray:
@@ -50,14 +73,7 @@ def made_up(
         values[f"{corner}_wheel_load"] = np.full_like(time, STATIC[corner])
         values |= {f"{corner}_{quantity}": 0.0 * time for quantity in ("suspension_deflection", "road_height")}
         values[f"{corner}_wheel_speed"] = values["speed"] / 0.33
-    values |= channels
-    known = {}
-    for name, each in values.items():
-        station, _, quantity = name.partition("_")
-        station, quantity = (station, quantity) if station in CORNERS else ("", name)
-        known[name] = described(quantity, np.asarray(each, float), station)
-    for quantity, each in manoeuvre.record(time).items():
-        known[quantity] = described(quantity, each)
+    values |= channels | manoeuvre.record(time)
     road = manoeuvre.road()
     meta = {
         "title": manoeuvre.kind,
@@ -71,7 +87,7 @@ def made_up(
         "step": 1e-3,
         "versions": {"susp_mj": "0", "mujoco": "0"},
     }
-    return Run(time, known, meta)
+    return run_of(time, values, meta)
 
 
 @dataclass(frozen=True)

@@ -10,19 +10,13 @@ import pytest
 
 from evaluation.numbers import NUMBERS, attitude
 from manoeuvres import LateralForce, RollAngle
-from susp_mj import Run, simulate
-from susp_mj.run import described
+from susp_mj import simulate
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
+from ..builders.runs import run_of
 
-def run_of(meta=None, **channels):
-    time = np.linspace(0.0, 1.0, 101)
-    return Run(
-        time,
-        {name: described(quantity, values, station) for name, (quantity, station, values) in channels.items()},
-        meta or {},
-    )
+TIME = np.linspace(0.0, 1.0, 101)
 
 
 def test_thesis_bars_close_the_thesis_numbers():
@@ -60,16 +54,17 @@ def test_the_bars_give_the_required_roll():
 
 
 def test_numbers_on_a_made_up_run():
-    ramp = np.linspace(0.0, 1.0, 101)
-    run = run_of(
-        roll_angle=("roll_angle", "", 0.01 - 0.05 * ramp),
-        pitch_angle=("pitch_angle", "", 0.02 * np.sin(2 * np.pi * ramp)),
-        lateral_acceleration=("lateral_acceleration", "", -4.0 * ramp),
-        fl_wheel_load=("wheel_load", "fl", 5000 + 900 * ramp),
-        fr_wheel_load=("wheel_load", "fr", 5000 - 900 * ramp),
-        rl_wheel_load=("wheel_load", "rl", 4000 + 300 * ramp),
-        rr_wheel_load=("wheel_load", "rr", 4000 - 300 * ramp),
-    )
+    ramp = TIME
+    channels = {
+        "roll_angle": 0.01 - 0.05 * ramp,
+        "pitch_angle": 0.02 * np.sin(2 * np.pi * ramp),
+        "lateral_acceleration": -4.0 * ramp,
+        "fl_wheel_load": 5000 + 900 * ramp,
+        "fr_wheel_load": 5000 - 900 * ramp,
+        "rl_wheel_load": 4000 + 300 * ramp,
+        "rr_wheel_load": 4000 - 300 * ramp,
+    }
+    run = run_of(TIME, channels)
     assert NUMBERS["roll_angle_max"](run).value == pytest.approx(0.05)
     assert NUMBERS["roll_angle_max"](run).note.startswith("right side up")
     assert NUMBERS["roll_angle_final"](run).value == pytest.approx(-0.05)
@@ -84,7 +79,7 @@ def test_numbers_on_a_made_up_run():
 
 
 def test_a_quarter_car_has_no_attitude():
-    run = run_of(wheel_load=("wheel_load", "", np.full(101, 5000.0)))
+    run = run_of(TIME, {"wheel_load": 5000.0})
     for number in (
         NUMBERS["roll_angle_max"],
         NUMBERS["pitch_angle_max"],

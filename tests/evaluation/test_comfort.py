@@ -8,8 +8,9 @@ from scipy import signal
 
 from evaluation.numbers import NUMBERS
 from evaluation.numbers.comfort import WEIGHTINGS, comfort_word, weighted
-from susp_mj import InputError, Run
-from susp_mj.run import described
+from susp_mj import InputError
+
+from ..builders.runs import run_of
 
 # ISO 2631-1:1997, tables 3 and 4: nominal third octaves [Hz], then Wk, Wd, Wc, We times 1000
 _ROWS = """
@@ -58,7 +59,7 @@ STEP = 1e-3
 def make(seconds=10.0, step=STEP, **signals):
     """Run of channels ``quantity=function of time``."""
     time = np.arange(round(seconds / step) + 1) * step
-    return Run(time, {name: described(name, of(time)) for name, of in signals.items()})
+    return run_of(time, {name: of(time) for name, of in signals.items()})
 
 
 def sine(amplitude, frequency):

@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from evaluation.numbers import NUMBERS, Answer, Criterion, Measure, Number, evaluate, recorded, register
 from evaluation.numbers.frequency import amplification
 from manoeuvres import VerticalSweep
-from susp_mj import InputError, Run
+from susp_mj import InputError
 from susp_mj.meaning import Input
-from susp_mj.run import described
+
+from ..builders.runs import changed, run_of
 
 STEP = 0.01
 TIME = np.arange(1001) * STEP
 
 
 def make(travel=(-0.1, 0.08), **signals):
-    """Run of channels given as ``station__quantity=values`` or ``quantity=values``."""
-    channels, stations = {}, set()
-    for key, values in signals.items():
-        station, _, quantity = key.rpartition("__")
-        stations.add(station)
-        name = f"{station}_{quantity}" if station else quantity
-        channels[name] = described(quantity, np.broadcast_to(np.asarray(values, float), TIME.shape).copy(), station)
-    return Run(TIME, channels, {"travel": {station: list(travel) for station in stations}})
+    """Run of channels ``station_quantity=values`` or ``quantity=values``, the same travel at every station."""
+    run = run_of(TIME, signals)
+    stations = {channel.station for channel in run.channels.values()}
+    return replace(run, meta={"travel": {station: list(travel) for station in stations}})
 
 
 def pulse(base, *spikes):
@@ -113,9 +112,9 @@ def test_not_settled():
 
 def test_wheel_load_names_the_worst_wheel():
     run = make(
-        fl__wheel_load=pulse(4000, (2.0, 3000)),
-        rr__wheel_load=pulse(3500, (4.0, 1200), (5.0, 6100)),
-        fr__wheel_load=pulse(4000, (1.0, 6000)),
+        fl_wheel_load=pulse(4000, (2.0, 3000)),
+        rr_wheel_load=pulse(3500, (4.0, 1200), (5.0, 6100)),
+        fr_wheel_load=pulse(4000, (1.0, 6000)),
     )
     least, most = NUMBERS["wheel_load_min"](run), NUMBERS["wheel_load_max"](run)
     assert (least.value, most.value) == (1200.0, 6100.0)
@@ -127,7 +126,7 @@ def test_wheel_load_names_the_worst_wheel():
 
 def test_wheel_load_rms_is_of_the_dynamic_share():
     swing = 4000 + 500 * np.sin(2 * np.pi * TIME)
-    run = make(fl__wheel_load=swing, fr__wheel_load=4000.0)
+    run = make(fl_wheel_load=swing, fr_wheel_load=4000.0)
     number = NUMBERS["wheel_load_rms"](run)
     assert number.value == pytest.approx(500 / np.sqrt(2), rel=2e-3)
     assert number.note == "fl"
@@ -136,7 +135,7 @@ def test_wheel_load_rms_is_of_the_dynamic_share():
 def test_contact_loss():
     load = np.where((TIME >= 2.0) & (TIME < 2.5), 0.0, 3000.0)
     again = np.where(((TIME >= 1.0) & (TIME < 1.1)) | ((TIME >= 3.0) & (TIME < 3.1)), 0.0, 3000.0)
-    run = make(rl__wheel_load=load, rr__wheel_load=again)
+    run = make(rl_wheel_load=load, rr_wheel_load=again)
     longest, first = NUMBERS["contact_loss_time"](run), NUMBERS["contact_loss_instant"](run)
     assert longest.value == pytest.approx(0.5, abs=1.5 * STEP)
     assert longest.note == "rl"
@@ -155,8 +154,8 @@ def test_contact_kept():
 
 def test_travel():
     run = make(
-        fl__suspension_deflection=pulse(0.01, (1.0, 0.06), (2.0, -0.03)),
-        rl__suspension_deflection=pulse(0.0, (3.0, -0.07)),
+        fl_suspension_deflection=pulse(0.01, (1.0, 0.06), (2.0, -0.03)),
+        rl_suspension_deflection=pulse(0.0, (3.0, -0.07)),
     )
     assert value_of("travel_compression", run) == 0.06
     assert value_of("travel_rebound", run) == -0.07
@@ -180,10 +179,10 @@ def test_stop_hits():
         deflection[inside] = 0.081 if sign > 0 else -0.101
     other, other_deflection = pulse(0.0, (5.0, 50.0)), pulse(0.0, (5.0, 0.0805))
     run = make(
-        fl__stop_force=force,
-        fl__suspension_deflection=deflection,
-        rr__stop_force=other,
-        rr__suspension_deflection=other_deflection,
+        fl_stop_force=force,
+        fl_suspension_deflection=deflection,
+        rr_stop_force=other,
+        rr_suspension_deflection=other_deflection,
     )
     assert value_of("stop_hits", run) == 4.0
     still = make(stop_force=0.0, suspension_deflection=0.0)
@@ -208,12 +207,8 @@ def sweep_run(transfer, noise=None, **fields):
     response = np.fft.irfft(np.fft.rfft(road, padded) * transfer(frequency), padded)[: len(time)]
     if noise is not None:
         response = response + noise(time)
-    channels = {
-        "road_height": described("road_height", road),
-        "body_displacement": described("body_displacement", response),
-        **{quantity: described(quantity, values) for quantity, values in sweep.record(time).items()},
-    }
-    return Run(time, channels, {"travel": {}})
+    channels = {"road_height": road, "body_displacement": response, **sweep.record(time)}
+    return run_of(time, channels, {"travel": {}})
 
 
 def resonator(frequency, eigenfrequency=1.2, damping=0.3):
@@ -273,7 +268,7 @@ def test_each_frequency_number_reads_its_own_quantity():
     run = sweep_run(resonator)
     gains = {"body_acceleration": -7.0, "suspension_deflection": 1.5, "wheel_load": 2e5}
     road = run["road_height"]
-    run = Run(run.time, {**run.channels, **{q: described(q, gain * road) for q, gain in gains.items()}}, run.meta)
+    run = changed(run, **{quantity: gain * road for quantity, gain in gains.items()})
     assert value_of("body_acceleration_amplification", run) == pytest.approx(7.0, rel=1e-6)
     assert value_of("suspension_amplification", run) == pytest.approx(1.5, rel=1e-6)
     assert value_of("wheel_load_amplification", run) == pytest.approx(2e5, rel=1e-6)
@@ -350,7 +345,7 @@ def test_runs_of_two_kinds():
     lifted, loaded = recorded("body_displacement"), recorded("wheel_load")
     run = make(body_displacement=0.0)
     assert run in lifted and run not in loaded and run not in lifted & loaded
-    assert make(body_displacement=0.0, fl__wheel_load=1.0) in loaded & lifted
+    assert make(body_displacement=0.0, fl_wheel_load=1.0) in loaded & lifted
     assert (loaded & lifted).refuse(make(body_acceleration=0.0)) == "the run has no wheel_load"
 
 
