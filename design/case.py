@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -61,7 +61,8 @@ class Setting(Description):
         name: label in tables and plots.
         vehicle: shipped car or path of a TOML file, relative to the case file.
         characteristics: which of the vehicle's sets.
-        load: load case, or several: each makes a configuration of its own, named after it.
+        load: load case, or several: each makes a configuration of its own, named after it. Without one, see
+            `usual_load`.
         axle: for models of one axle.
         set: overrides by dotted path, as a vehicle file would have them.
     """
@@ -69,13 +70,13 @@ class Setting(Description):
     name: Annotated[str, AfterValidator(_printable)] = Field(min_length=1, max_length=80)
     vehicle: str
     characteristics: str | None = None
-    load: str | Annotated[tuple[str, ...], Field(min_length=1)] = DESIGN_LOAD
+    load: str | Annotated[tuple[str, ...], Field(min_length=1)] | None = None
     axle: str | None = None
     set: dict[str, Any] = Field(default_factory=dict)
 
     def single(self) -> list[Setting]:
         """This setting once for each of its load cases."""
-        if isinstance(self.load, str):
+        if self.load is None or isinstance(self.load, str):
             return [self]
         return [self.model_copy(update={"name": f"{self.name}, {load}", "load": load}) for load in self.load]
 
@@ -202,6 +203,12 @@ def read_manoeuvre(table: Mapping[str, Any], source: str = "") -> Manoeuvre:
         text = f"{start:g} s is not allowed; the run ends after {manoeuvre.duration:g} s"
         raise InputError(text, key="manoeuvre.start", source=source)
     return manoeuvre
+
+
+def usual_load(manoeuvre: Manoeuvre | type[Manoeuvre], loads: Container[str]) -> str:
+    """Load case of a car with these `loads` where none is asked for: the manoeuvre's test load if the car has it, else
+    the design position."""
+    return manoeuvre.test_load if manoeuvre.test_load in loads else DESIGN_LOAD
 
 
 def file_name(label: str) -> str:

@@ -13,13 +13,12 @@ from evaluation.characteristics import characteristic
 from evaluation.compare import Comparison, Configuration, Failure, Outcome
 from evaluation.numbers import NUMBERS, evaluate
 from evaluation.plots.sweeps import SWEEP_QUANTITIES
-from manoeuvres import VerticalSweep
 from susp_mj.batch import Progress, side_by_side
 from susp_mj.errors import InputError, SimulationError
 from susp_mj.linear import Linear, linearise
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
-from susp_mj.names import AXLES
+from susp_mj.names import AXLES, channel_name
 from susp_mj.plant import Plant
 from susp_mj.plugins import load_plugins
 from susp_mj.recording import Diverged
@@ -29,7 +28,7 @@ from vehicles.mjcf import HANDLING, build
 from vehicles.reading import load_vehicle
 from vehicles.vehicle import Vehicle
 
-from .case import Case, Setting, read_manoeuvre
+from .case import Case, Setting, read_manoeuvre, usual_load
 
 Report = Callable[[str, float], None]
 """Progress: called with what is being done and the fraction done, 0 to 1."""
@@ -74,7 +73,7 @@ class Prepared:
     def title(self) -> str:
         """What is run, one line."""
         vehicle = self.vehicle
-        parts = (vehicle.title, vehicle.characteristics, f"load {self.job.setting.load}")
+        parts = (vehicle.title, vehicle.characteristics, f"load {self.plant.meaning.load}")
         return ", ".join(part for part in parts if part)
 
     @property
@@ -148,7 +147,8 @@ def prepare(job: Job) -> Prepared:
         vehicle = load_vehicle(
             job.path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set
         )
-        plant = build(vehicle, job.model, str(setting.load), setting.axle, manoeuvre.rig)
+        load = str(setting.load or usual_load(manoeuvre, vehicle.loads))
+        plant = build(vehicle, job.model, load, setting.axle, manoeuvre.rig)
     except InputError as error:
         if error.source:
             raise
@@ -192,10 +192,9 @@ def _configuration(prepared: Prepared, run: Run) -> Configuration:
         return Configuration(*what, [characteristic(f"{name} axle", vehicle.axle(name)) for name in AXLES])
     axles = dict.fromkeys(travel.key for travel in prepared.plant.meaning.travels)
     curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in axles]
-    plant = build(vehicle.without_friction(), job.model, str(job.setting.load), job.setting.axle)
+    plant = build(vehicle.without_friction(), job.model, prepared.plant.meaning.load, job.setting.axle)
     linear = linearise(plant)
-    sweep = prepared.manoeuvre if isinstance(prepared.manoeuvre, VerticalSweep) else None
-    transfer = {} if sweep is None else exact_transfer(linear, sweep, plant.meaning.inputs)
+    transfer = exact_transfer(linear, prepared.manoeuvre, plant.meaning.inputs)
     return Configuration(*what, curves, linear.modes(), transfer)
 
 
@@ -224,13 +223,17 @@ def _of_manoeuvre(error: InputError, manoeuvre: Manoeuvre) -> InputError:
 
 
 def exact_transfer(
-    linear: Linear, sweep: VerticalSweep, inputs: Sequence[Input]
+    linear: Linear, manoeuvre: Manoeuvre, inputs: Sequence[Input]
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Exact amplifications beside those of a sweep, of every channel that the report draws over frequency.
+    """Exact amplifications beside those of a sweep, of every channel that the report draws over frequency; empty unless
+    the manoeuvre sweeps the road.
 
     As for the sweep, a channel of a wheel is related to that wheel's road, one of the body to the first wheel's.
     """
-    frequency = np.geomspace(sweep.start_frequency, sweep.end_frequency, 200)
+    swept = manoeuvre.road_sweep()
+    if swept is None:
+        return {}
+    frequency = np.geomspace(*swept, 200)
     roads = {place.station: place for place in inputs if place.quantity == "road_height"}
     first = next(iter(roads.values()))
     result = {}
@@ -238,8 +241,16 @@ def exact_transfer(
         if channel.endswith(SWEEP_QUANTITIES):
             own = roads.get(channel.split("_", 1)[0], first)
             ratios = [
-                linear.transfer(channel, sweep.weights(inputs, each), np.array([each]))[0] / sweep.weight(own, each)
+                linear.transfer(channel, _weights(manoeuvre, roads, each), np.array([each]))[0]
+                / manoeuvre.weight(own, each)
                 for each in frequency
             ]
             result[channel] = (frequency, np.array(ratios))
     return result
+
+
+def _weights(manoeuvre: Manoeuvre, roads: Mapping[str, Input], frequency: float) -> dict[str, complex]:
+    """Complex amplitude of every wheel's road, by its channel's name."""
+    return {
+        channel_name(station, place.quantity): manoeuvre.weight(place, frequency) for station, place in roads.items()
+    }

@@ -10,25 +10,20 @@ from typing import Any, NoReturn
 
 from evaluation.animation.cameras import offered
 from manoeuvres import MANOEUVRES, find_manoeuvre
-from manoeuvres.driving import Driving
 from susp_mj.description import validate
 from susp_mj.errors import InputError
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.plugins import load_installed, load_plugin
 from susp_mj.units import unit_of
-from vehicles.mjcf import HANDLING, K_AND_C, MODELS
+from vehicles.mjcf import MODELS
 from vehicles.reading import VehicleFile
 from vehicles.vehicle import DESIGN_LOAD
 
-from .case import Case, with_film
+from .case import Case, usual_load, with_film
 
-DEFAULT_VEHICLE, DEFAULT_MODEL = "chapter3", "quarter_2dof"
+DEFAULT_VEHICLE = "chapter3"
 WHOLE_CAR, WHOLE_CAR_SETS = "s_class", ("configuration_3", "configuration_4")
 """Car and sets of characteristics of models that need more than a quarter of a car."""
-BODY_MODELS = {"lateral_force": "full_3dof", "longitudinal_force": "full_3dof", "roll_angle": "full_3dof"}
-"""Manoeuvres that act on the body of an oscillation model -> their model."""
-TEST_LOAD = "empty"
-"""Load case in which handling is tested: the car in running order with its driver."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +54,9 @@ def case_from_arguments(name: str, arguments: Sequence[str]) -> Asked:
         vehicles, chosen_sets = (
             ([DEFAULT_VEHICLE], chosen_sets) if quarter else ([WHOLE_CAR], chosen_sets or list(WHOLE_CAR_SETS))
         )
-    loads = {vehicle: options["load"] or [_default_load(kind, vehicle)] for vehicle in vehicles}
+    loads = {
+        vehicle: options["load"] or [usual_load(manoeuvre, VehicleFile.open(vehicle).loads)] for vehicle in vehicles
+    }
     settings = [
         dict(
             name=_label(vehicles, vehicle, sets, load, loads[vehicle]),
@@ -112,26 +109,11 @@ class _Parser(argparse.ArgumentParser):
         raise InputError(message, source=self.prog)
 
 
-def _default_load(kind: str, vehicle: str) -> str:
-    """The test load of a car that drives, if it has one; the design position otherwise."""
-    if default_model(kind) != HANDLING:
-        return DESIGN_LOAD
-    return TEST_LOAD if TEST_LOAD in VehicleFile.open(vehicle).loads else DESIGN_LOAD
-
-
 def _title(kind: str, settings: Sequence[dict[str, Any]]) -> str:
     """What is driven, and by which configurations in which load cases."""
     return f"{kind.replace('_', ' ').capitalize()}: " + ", ".join(
         f"{each['name']} (load {each['load']})" for each in settings
     )
-
-
-def default_model(kind: str) -> str:
-    """Model that a manoeuvre is for: the car that drives freely, the body of an oscillation model, or the quarter
-    car."""
-    manoeuvre = MANOEUVRES[kind]
-    drives = issubclass(manoeuvre, Driving) or manoeuvre.rig == K_AND_C
-    return HANDLING if drives else BODY_MODELS.get(kind, DEFAULT_MODEL)
 
 
 def _absolute(vehicle: str) -> str:
@@ -155,12 +137,8 @@ def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
     parser.add_argument(
         "--characteristics", "-c", action="append", help="set of characteristics of the car, repeatable"
     )
-    model = default_model(kind)
-    load = (
-        f"{TEST_LOAD} where the car has it, as ISO 15037-1 asks for, else {DESIGN_LOAD}"
-        if model == HANDLING
-        else DESIGN_LOAD
-    )
+    model, test = manoeuvre.default_model, manoeuvre.test_load
+    load = f"{test} where the car has it, as ISO 15037-1 asks for, else {DESIGN_LOAD}" if test else DESIGN_LOAD
     parser.add_argument("--load", nargs="+", help=f"load cases (default {load})")
     parser.add_argument("--model", "-m", default=model, help=f"{', '.join(MODELS)} (default {model})")
     parser.add_argument("--axle", choices=("front", "rear"))

@@ -165,17 +165,16 @@ def _shape(mode: Mode) -> str:
 def print_lists() -> None:
     """Everything there is to choose from."""
     from evaluation.numbers import NUMBERS
-    from manoeuvres import ALIASES, MANOEUVRES
+    from manoeuvres import MANOEUVRES
     from susp_mj.elements import DAMPERS, SPRINGS, TYRES
     from vehicles.mjcf import MODELS
     from vehicles.reading import VehicleFile, available_vehicles
 
     from .case import available_cases
 
-    german = {name: alias for alias, name in ALIASES.items()}
     cars = {name: ", ".join(VehicleFile.open(name).sets) for name in available_vehicles()}
     first_lines = {
-        name: _first_line(kind) + (f" ({german[name]})" if name in german else "") for name, kind in MANOEUVRES.items()
+        name: _first_line(kind) + (f" ({kind.german})" if kind.german else "") for name, kind in MANOEUVRES.items()
     }
     _print_pairs("Cars and their sets of characteristics", cars)
     _print_pairs("Models", MODELS)

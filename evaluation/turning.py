@@ -11,7 +11,7 @@ from susp_mj.run import Run
 from .compare import Comparison
 from .display import quantity_text
 from .numbers import NUMBERS
-from .numbers.runs import drives, kind
+from .numbers.runs import drives, is_a
 from .numbers.wheel_lift import lifts
 
 ROWS = {
@@ -49,7 +49,9 @@ def turning_table(comparison: Comparison) -> TurningTable | None:
     on.
     """
     runs = [each.run for each in comparison.configurations]
-    if not runs or not all(drives(run) for run in runs) or kind(runs[0]) in ("braking", "split_mu", "acceleration"):
+    if not runs or not all(drives(run) for run in runs):
+        return None
+    if is_a(runs[0], "braking", "acceleration") and not is_a(runs[0], "turn"):
         return None
     if max(float(np.abs(run["lateral_acceleration"]).max()) for run in runs) < _TURNS:
         return None

@@ -1,7 +1,7 @@
 """What is done to a car: one module a manoeuvre, each also a script (``python manoeuvres/bump.py --help``).
 
 The modules have English names. Where the thesis names a manoeuvre in German, a file of that name is the same script
-(``python manoeuvres/zuziehen.py``), and every German name in `ALIASES` can be written in a case file.
+(``python manoeuvres/zuziehen.py``), and its German name can be written in a case file.
 """
 
 from __future__ import annotations
@@ -32,62 +32,44 @@ from .uneven_road import UnevenRoad
 from .vertical_sweep import VerticalSweep
 
 MANOEUVRES: dict[str, type[Manoeuvre]] = {
-    "bump": Bump,
-    "step": RoadStep,
-    "vertical_sweep": VerticalSweep,
-    "uneven_road": UnevenRoad,
-    "random_road": RandomRoad,
-    "lateral_force": LateralForce,
-    "longitudinal_force": LongitudinalForce,
-    "roll_angle": RollAngle,
-    "ramp_steer": RampSteer,
-    "step_steer": StepSteer,
-    "swept_steer": SweptSteer,
-    "sine_steer": SineSteer,
-    "steady_circle": SteadyCircle,
-    "lane_change": LaneChange,
-    "acceleration": Acceleration,
-    "braking": Braking,
-    "braking_in_turn": BrakingInTurn,
-    "split_mu": SplitMu,
-    "crosswind": Crosswind,
-    "cross_slope": CrossSlope,
-    "suspension_rig": SuspensionRig,
+    each.name(): each
+    for each in (
+        Bump,
+        RoadStep,
+        VerticalSweep,
+        UnevenRoad,
+        RandomRoad,
+        LateralForce,
+        LongitudinalForce,
+        RollAngle,
+        RampSteer,
+        StepSteer,
+        SweptSteer,
+        SineSteer,
+        SteadyCircle,
+        LaneChange,
+        Acceleration,
+        Braking,
+        BrakingInTurn,
+        SplitMu,
+        Crosswind,
+        CrossSlope,
+        SuspensionRig,
+    )
 }
-ALIASES = {
-    "bodenwelle": "bump",
-    "schwelle": "step",
-    "gleitsinus": "vertical_sweep",
-    "einseitige_bodenwelle": "uneven_road",
-    "zufallsstrasse": "random_road",
-    "seitenkraft": "lateral_force",
-    "laengskraft": "longitudinal_force",
-    "wankwinkel": "roll_angle",
-    "zuziehen": "ramp_steer",
-    "lenkwinkelsprung": "step_steer",
-    "lenksweep": "swept_steer",
-    "lenkeinsinus": "sine_steer",
-    "kreisfahrt": "steady_circle",
-    "doppelter_fahrspurwechsel": "lane_change",
-    "beschleunigung": "acceleration",
-    "bremsen": "braking",
-    "bremsen_in_der_kurve": "braking_in_turn",
-    "mu_split": "split_mu",
-    "seitenwind": "crosswind",
-    "querneigung": "cross_slope",
-    "kennwerte": "suspension_rig",
-}
-"""German names that a practitioner knows."""
+"""Every manoeuvre by its kind."""
 
 
 def find_manoeuvre(name: str) -> str:
-    """Registered name of a manoeuvre given by its name or German alias.
+    """Registered kind of a manoeuvre given by its kind or its German name.
 
     Raises:
         InputError: no such manoeuvre.
     """
-    found = ALIASES.get(name.lower(), name)
-    if found not in MANOEUVRES:
+    if name in MANOEUVRES:
+        return name
+    found = next((kind for kind, each in MANOEUVRES.items() if each.german == name.lower() != ""), None)
+    if found is None:
         raise InputError(f"'{name}' unknown; {choices(MANOEUVRES, name)}", key="kind")
     return found
 
@@ -98,16 +80,16 @@ def register(manoeuvre: type[Manoeuvre]) -> None:
     Raises:
         InputError: it has no kind, or the kind is taken by another.
     """
-    kind = manoeuvre.model_fields["kind"].default
+    kind = manoeuvre.name()
     if not isinstance(kind, str):
         raise InputError(f"{manoeuvre.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")
-    if kind in ALIASES or MANOEUVRES.get(kind, manoeuvre) is not manoeuvre:
+    taken = {each.german for each in MANOEUVRES.values()}
+    if kind in taken or MANOEUVRES.get(kind, manoeuvre) is not manoeuvre:
         raise InputError(f"kind '{kind}' of {manoeuvre.__name__} is taken by another manoeuvre")
     MANOEUVRES[kind] = manoeuvre
 
 
 __all__ = [
-    "ALIASES",
     "MANOEUVRES",
     "Acceleration",
     "Braking",

@@ -6,7 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from manoeuvres.driving import Driving, Pedal, fallen, risen
+from manoeuvres.driving import PEDALS, Driving, Pedal, fallen, risen
+from susp_mj.character import Character
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.units import PositiveTime, Quantity
@@ -26,6 +27,10 @@ class Acceleration(Driving):
     Source: thesis, table 7.1; the values are ours.
     """
 
+    character: ClassVar[Character] = Character(
+        "Acceleration", ("acceleration",), together=(*PEDALS, "engine_speed", "gear")
+    )
+    german: ClassVar[str] = "beschleunigung"
     needs: ClassVar[tuple[str, ...]] = ("accelerator",)
 
     kind: Literal["acceleration"] = "acceleration"

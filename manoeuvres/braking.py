@@ -6,7 +6,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from manoeuvres.driving import Driving, Pedal, fallen, risen
+from manoeuvres.driving import PEDALS, Driving, Pedal, fallen, risen
+from susp_mj.character import Character
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.units import PositiveSpeed, PositiveTime
@@ -27,6 +28,8 @@ class Braking(Driving):
     Source: thesis, table 7.1; ISO 21994:2007 for the speed; the pedal is ours.
     """
 
+    character: ClassVar[Character] = Character("Braking", ("braking",), together=PEDALS)
+    german: ClassVar[str] = "bremsen"
     needs: ClassVar[tuple[str, ...]] = ("brake_pedal",)
 
     kind: Literal["braking"] = "braking"

@@ -9,6 +9,7 @@ from pydantic import model_validator
 
 from manoeuvres.braking import braked
 from manoeuvres.driving import Angle, Driving, Pedal, risen
+from susp_mj.character import Character
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
@@ -30,6 +31,20 @@ class BrakingInTurn(Driving):
     Source: ISO 7975:2006: a radius of 100 m at about 5 m/s²; here the angle is given instead of the radius.
     """
 
+    character: ClassVar[Character] = Character(
+        "Braking in turn",
+        ("braking", "turn", "course"),
+        together=(
+            "speed",
+            "longitudinal_acceleration",
+            "yaw_rate",
+            "lateral_acceleration",
+            "rear_side_slip_angle",
+            "roll_angle",
+        ),
+    )
+    german: ClassVar[str] = "bremsen_in_der_kurve"
+    begins: ClassVar[str] = "brake_start"
     needs: ClassVar[tuple[str, ...]] = ("steering_wheel_angle", "brake_pedal")
 
     kind: Literal["braking_in_turn"] = "braking_in_turn"

@@ -9,6 +9,7 @@ import numpy as np
 from manoeuvres.driving import held_speed
 from manoeuvres.surface import check_length, sampled
 from susp_mj import features
+from susp_mj.character import Character
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import HeightAndSlope, Road, cosine_bump
@@ -29,6 +30,8 @@ class Bump(Manoeuvre):
     Source: thesis, chapter 3 and appendix 1.
     """
 
+    character: ClassVar[Character] = Character("Bump")
+    german: ClassVar[str] = "bodenwelle"
     needs: ClassVar[tuple[str, ...]] = ("road_height",)
 
     kind: Literal["bump"] = "bump"

@@ -9,6 +9,7 @@ import numpy as np
 from manoeuvres.driving import Driving
 from manoeuvres.surface import LONGEST
 from susp_mj import features
+from susp_mj.character import Character
 from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.roads import Road, cosine_ramp
 from susp_mj.units import PositiveSpeed, PositiveTime, Quantity
@@ -32,6 +33,12 @@ class CrossSlope(Driving):
     Source: the values are ours; 2.5 % is the usual drainage slope of a road.
     """
 
+    character: ClassVar[Character] = Character(
+        "Cross slope",
+        ("disturbance", "course"),
+        together=("yaw_rate", "lateral_acceleration", "steering_wheel_angle", "path_deviation"),
+    )
+    german: ClassVar[str] = "querneigung"
     needs: ClassVar[tuple[str, ...]] = ("speed_target",)
 
     kind: Literal["cross_slope"] = "cross_slope"

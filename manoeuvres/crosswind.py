@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import model_validator
 
 from manoeuvres.driving import Driving, fallen, risen
+from susp_mj.character import Character
 from susp_mj.description import wrong
 from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.features import Gust
@@ -34,6 +35,12 @@ class Crosswind(Driving):
     Source: ISO 12021:2010: 20 m/s at 100 km/h over at least 25 m; the flanks are ours.
     """
 
+    character: ClassVar[Character] = Character(
+        "Crosswind",
+        ("disturbance", "course"),
+        together=("wind_y", "yaw_rate", "lateral_acceleration", "roll_angle", "steering_wheel_angle", "path_deviation"),
+    )
+    german: ClassVar[str] = "seitenwind"
     needs: ClassVar[tuple[str, ...]] = ("wind_y",)
 
     kind: Literal["crosswind"] = "crosswind"

@@ -16,6 +16,17 @@ PositiveAngle = Annotated[float, Quantity("rad", gt=0)]
 SteeringFrequency = Annotated[float, Quantity("Hz", gt=0, le=50)]
 """Up to what steps of 1 ms follow, twenty a period; nobody steers as fast."""
 Pedal = Annotated[float, Quantity("", ge=0, le=1)]
+TRANSIENT = (
+    "steering_wheel_angle",
+    "yaw_rate",
+    "lateral_acceleration",
+    "roll_angle",
+    "pitch_angle",
+    "body_displacement",
+)
+"""What is drawn together of a quick movement of the steering wheel."""
+PEDALS = ("speed", "longitudinal_acceleration", "pitch_angle", "body_displacement")
+"""The same of a pedal pressed on a straight road."""
 
 
 class Driving(Manoeuvre):
@@ -28,6 +39,8 @@ class Driving(Manoeuvre):
             0.7 wet.
     """
 
+    default_model: ClassVar[str] = "handling"
+    test_load: ClassVar[str] = "empty"
     needs: ClassVar[tuple[str, ...]] = ("steering_wheel_angle",)
 
     speed: PositiveSpeed = 72 / 3.6

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from manoeuvres.driving import Driving
+from susp_mj.character import Character
 from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.features import Cones, Course, Lane
 from susp_mj.roads import Road
@@ -46,6 +47,19 @@ class LaneChange(Driving):
     Source: ISO 3888-1:2018; that the offset is between the right limits is our reading. Path and driver are ours.
     """
 
+    character: ClassVar[Character] = Character(
+        "Lane change",
+        ("course",),
+        together=(
+            "steering_wheel_angle",
+            "yaw_rate",
+            "lateral_acceleration",
+            "side_slip_angle",
+            "roll_angle",
+            "path_deviation",
+        ),
+    )
+    german: ClassVar[str] = "doppelter_fahrspurwechsel"
     needs: ClassVar[tuple[str, ...]] = ("speed_target",)
 
     kind: Literal["lane_change"] = "lane_change"

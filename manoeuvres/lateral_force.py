@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import ClassVar, Literal
 
 from manoeuvres.rise import Rise
+from susp_mj.character import Character
 from susp_mj.units import Acceleration, PositiveTime
 
 
@@ -18,6 +19,9 @@ class LateralForce(Rise):
     Source: thesis, table 7.1, oscillation model 4.
     """
 
+    character: ClassVar[Character] = Character("Lateral force")
+    german: ClassVar[str] = "seitenkraft"
+    default_model: ClassVar[str] = "full_3dof"
     needs: ClassVar[tuple[str, ...]] = ("lateral_acceleration",)
 
     kind: Literal["lateral_force"] = "lateral_force"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import ClassVar, Literal
 
 from manoeuvres.rise import Rise
+from susp_mj.character import Character
 from susp_mj.units import Acceleration, PositiveTime
 
 
@@ -18,6 +19,9 @@ class LongitudinalForce(Rise):
     Source: thesis, table 7.1, oscillation model 3; without anti-dive, which needs wheel paths.
     """
 
+    character: ClassVar[Character] = Character("Longitudinal force")
+    german: ClassVar[str] = "laengskraft"
+    default_model: ClassVar[str] = "full_3dof"
     needs: ClassVar[tuple[str, ...]] = ("longitudinal_acceleration",)
 
     kind: Literal["longitudinal_force"] = "longitudinal_force"

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
 from manoeuvres.driving import Driving, PositiveAngle
+from susp_mj.character import Character
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.units import PositiveTime, Quantity
@@ -26,6 +27,21 @@ class RampSteer(Driving):
 
     Source: thesis appendix 9, model-manoeuvre 3: 72 km/h, 25 °/s; limit and start are reconstructed.
     """
+
+    character: ClassVar[Character] = Character(
+        "Ramp steer",
+        ("steering", "tightened"),
+        average=0.1,
+        together=(
+            "steering_wheel_angle",
+            "speed",
+            "yaw_rate",
+            "lateral_acceleration",
+            "roll_angle",
+            "rear_side_slip_angle",
+        ),
+    )
+    german: ClassVar[str] = "zuziehen"
 
     kind: Literal["ramp_steer"] = "ramp_steer"
     duration: PositiveTime = 10.0

@@ -10,6 +10,7 @@ from pydantic import model_validator
 
 from manoeuvres.driving import held_speed
 from manoeuvres.surface import sampled
+from susp_mj.character import Character
 from susp_mj.description import wrong
 from susp_mj.errors import InputError
 from susp_mj.features import Roughness
@@ -39,6 +40,8 @@ class RandomRoad(Manoeuvre):
     Source: ISO 8608:2016; coherence: see `susp_mj.roads.RandomTracks`.
     """
 
+    character: ClassVar[Character] = Character("Random road")
+    german: ClassVar[str] = "zufallsstrasse"
     needs: ClassVar[tuple[str, ...]] = ("road_height",)
 
     kind: Literal["random_road"] = "random_road"

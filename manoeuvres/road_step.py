@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import model_validator
 
 from manoeuvres.wheels import checked, is_chosen
+from susp_mj.character import Character
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.roads import cosine_ramp
@@ -29,6 +30,8 @@ class RoadStep(Manoeuvre):
     Source: thesis, table 7.1 and appendix 9, model-manoeuvre 1.
     """
 
+    character: ClassVar[Character] = Character("Road step")
+    german: ClassVar[str] = "schwelle"
     needs: ClassVar[tuple[str, ...]] = ("road_height",)
 
     kind: Literal["step"] = "step"

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 
 from manoeuvres.rise import Rise
+from susp_mj.character import Character
 from susp_mj.units import PositiveTime, Quantity
 
 
@@ -23,6 +24,9 @@ class RollAngle(Rise):
     Source: thesis, table 7.1, "estimation of anti-roll bar stiffness".
     """
 
+    character: ClassVar[Character] = Character("Roll angle", ("required_roll",))
+    german: ClassVar[str] = "wankwinkel"
+    default_model: ClassVar[str] = "full_3dof"
     needs: ClassVar[tuple[str, ...]] = ("roll_target",)
     rig: ClassVar[str | None] = "roll"
 

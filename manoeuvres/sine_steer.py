@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from manoeuvres.driving import Angle, Driving, SteeringFrequency
+from manoeuvres.driving import TRANSIENT, Angle, Driving, SteeringFrequency
+from susp_mj.character import Character
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.units import PositiveTime
@@ -27,6 +28,9 @@ class SineSteer(Driving):
 
     Source: thesis, table 7.1; ISO 7401:2011, one period of sine. Amplitude, frequency and speed are reconstructed.
     """
+
+    character: ClassVar[Character] = Character("Sine steer", ("steering",), together=TRANSIENT)
+    german: ClassVar[str] = "lenkeinsinus"
 
     kind: Literal["sine_steer"] = "sine_steer"
     duration: PositiveTime = 6.0

@@ -8,6 +8,7 @@ import numpy as np
 
 from manoeuvres.braking import braked
 from manoeuvres.driving import Driving, Pedal
+from susp_mj.character import Character
 from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.features import Patch
 from susp_mj.manoeuvre import ValueAndRate
@@ -34,6 +35,19 @@ class SplitMu(Driving):
     Source: ISO 14512:1999; the values are ours.
     """
 
+    character: ClassVar[Character] = Character(
+        "Split friction",
+        ("braking", "course"),
+        together=(
+            "speed",
+            "longitudinal_acceleration",
+            "yaw_rate",
+            "yaw_angle",
+            "steering_wheel_angle",
+            "path_deviation",
+        ),
+    )
+    german: ClassVar[str] = "mu_split"
     needs: ClassVar[tuple[str, ...]] = ("brake_pedal",)
 
     kind: Literal["split_mu"] = "split_mu"

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import model_validator
 
 from manoeuvres.driving import Driving
+from susp_mj.character import Character
 from susp_mj.description import wrong
 from susp_mj.elements.driver import Driver, Path, PreviewDriver
 from susp_mj.features import Circle
@@ -36,6 +37,13 @@ class SteadyCircle(Driving):
     Source: ISO 4138:2012, constant-radius method with continuous speed increase; the rate is ours.
     """
 
+    character: ClassVar[Character] = Character(
+        "Steady circle",
+        ("turn", "tightened", "course"),
+        average=2.0,
+        together=("steering_wheel_angle", "speed", "lateral_acceleration", "path_deviation"),
+    )
+    german: ClassVar[str] = "kreisfahrt"
     needs: ClassVar[tuple[str, ...]] = ("speed_target",)
 
     kind: Literal["steady_circle"] = "steady_circle"

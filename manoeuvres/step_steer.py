@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from manoeuvres.driving import Angle, Driving, fallen, risen
+from manoeuvres.driving import TRANSIENT, Angle, Driving, fallen, risen
+from susp_mj.character import Character
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
 from susp_mj.units import PositiveTime, Quantity
@@ -27,6 +28,9 @@ class StepSteer(Driving):
     Source: thesis appendix 9, model-manoeuvre 4: 85°; ISO 7401:2011, step input (200 to 500 °/s). The speed is
     reconstructed: that of the other manoeuvres.
     """
+
+    character: ClassVar[Character] = Character("Step steer", ("steering", "steering_step"), together=TRANSIENT)
+    german: ClassVar[str] = "lenkwinkelsprung"
 
     kind: Literal["step_steer"] = "step_steer"
     duration: PositiveTime = 6.0

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import model_validator
 
 from manoeuvres.driving import PositiveAngle
+from susp_mj.character import Character
 from susp_mj.description import wrong
 from susp_mj.errors import InputError
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
@@ -48,6 +49,10 @@ class SuspensionRig(Manoeuvre):
     Source: thesis, table 7.1, "investigation of suspension property"; the values are ours.
     """
 
+    character: ClassVar[Character] = Character("Suspension rig")
+    german: ClassVar[str] = "kennwerte"
+    default_model: ClassVar[str] = "handling"
+    test_load: ClassVar[str] = "empty"
     needs: ClassVar[tuple[str, ...]] = ("heave_target",)
     rig: ClassVar[str | None] = "k_and_c"
 

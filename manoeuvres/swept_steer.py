@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import model_validator
 
 from manoeuvres.driving import Driving, PositiveAngle, SteeringFrequency, fallen
 from manoeuvres.sweeping import Sweep
+from susp_mj.character import Character
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import ValueAndRate
 from susp_mj.meaning import Input
@@ -34,6 +35,13 @@ class SweptSteer(Driving):
     Source: thesis appendix 9, model-manoeuvre 5: 72 km/h, 30°, 0.2 to 2.8 Hz; ISO 7401:2011. How the frequency rises,
     and the length, are reconstructed.
     """
+
+    character: ClassVar[Character] = Character(
+        "Swept steer",
+        ("steering",),
+        together=("steering_wheel_angle", "yaw_rate", "lateral_acceleration", "roll_angle"),
+    )
+    german: ClassVar[str] = "lenksweep"
 
     kind: Literal["swept_steer"] = "swept_steer"
     duration: PositiveTime = 60.0

@@ -8,6 +8,7 @@ import numpy as np
 
 from manoeuvres.driving import held_speed
 from manoeuvres.surface import check_length, sampled
+from susp_mj.character import Character
 from susp_mj.features import Bump
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
@@ -29,6 +30,8 @@ class UnevenRoad(Manoeuvre):
     Source: thesis, table 7.1, "uneven left-right input"; its shape is reconstructed.
     """
 
+    character: ClassVar[Character] = Character("Uneven road")
+    german: ClassVar[str] = "einseitige_bodenwelle"
     needs: ClassVar[tuple[str, ...]] = ("road_height",)
 
     kind: Literal["uneven_road"] = "uneven_road"

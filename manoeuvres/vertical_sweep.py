@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import model_validator
 
 from manoeuvres.sweeping import Sweep
+from susp_mj.character import Character
 from susp_mj.description import wrong
 from susp_mj.manoeuvre import Manoeuvre, ValueAndRate
 from susp_mj.meaning import Input
-from susp_mj.names import channel_name
 from susp_mj.units import Frequency, PositiveLength, PositiveSpeed, PositiveTime
 
 
@@ -33,6 +32,8 @@ class VerticalSweep(Manoeuvre):
     Source: thesis, table 7.1; the exponential sweep after A. Farina, AES Convention 108 (2000), 5093.
     """
 
+    character: ClassVar[Character] = Character("Vertical sine sweep")
+    german: ClassVar[str] = "gleitsinus"
     needs: ClassVar[tuple[str, ...]] = ("road_height",)
 
     kind: Literal["vertical_sweep"] = "vertical_sweep"
@@ -62,15 +63,11 @@ class VerticalSweep(Manoeuvre):
         return sign * height, np.where(time >= delay, sign * rate, 0.0)
 
     def weight(self, place: Input, frequency: float) -> complex:
-        """Complex amplitude of a wheel's road at a frequency [Hz], relative to a wheel that is neither opposed nor
-        delayed."""
         delay = 0.0 if self.speed is None else -place.x / self.speed
         return (-1.0 if self._opposed(place) else 1.0) * complex(np.exp(-2j * np.pi * frequency * delay))
 
-    def weights(self, places: Sequence[Input], frequency: float) -> dict[str, complex]:
-        """`weight` of every road input, by its channel's name."""
-        roads = [place for place in places if place.quantity == "road_height"]
-        return {channel_name(place.station, place.quantity): self.weight(place, frequency) for place in roads}
+    def road_sweep(self) -> tuple[float, float]:
+        return self.start_frequency, self.end_frequency
 
     def _opposed(self, place: Input) -> bool:
         """Whether a wheel's road is opposite to the first one's."""

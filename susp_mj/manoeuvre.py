@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from .character import Character
 from .description import Description
 from .errors import InputError
 from .units import PositiveTime
@@ -34,6 +35,21 @@ class Manoeuvre(Description, ABC):
 
     rig: ClassVar[str | None] = None
     """Rig that the plant must be built on, if any."""
+
+    character: ClassVar[Character] = Character()
+    """What it is, for numbers, plots and titles of its runs; `declared` fills in when it begins."""
+
+    begins: ClassVar[str] = "start"
+    """Parameter that says when what it is about begins [s]; without it that is the beginning of the run."""
+
+    german: ClassVar[str] = ""
+    """German name, by which a case file may call it too."""
+
+    default_model: ClassVar[str] = "quarter_2dof"
+    """Model on which it runs as a script."""
+
+    test_load: ClassVar[str] = ""
+    """Load case in which a car that has it is tested; empty is the design position."""
 
     kind: str
     duration: PositiveTime
@@ -64,6 +80,28 @@ class Manoeuvre(Description, ABC):
     def driver(self) -> Driver | None:
         """Driver who steers, instead of an open-loop steering input."""
         return None
+
+    @classmethod
+    def name(cls) -> str:
+        """Its kind, as case files write it."""
+        return cls.model_fields["kind"].default
+
+    def declared(self) -> Character:
+        """Its character, with its title and its begin."""
+        title = self.character.title or self.kind.replace("_", " ").capitalize()
+        return dataclasses.replace(self.character, title=title, begin=float(getattr(self, self.begins, 0.0)))
+
+    def road_sweep(self) -> tuple[float, float] | None:
+        """Frequencies [Hz] from and to which it sweeps the road under the wheels; None if it does not."""
+        return None
+
+    def weight(self, place: Input, frequency: float) -> complex:
+        """Complex amplitude of a wheel's road in a sweep, relative to a wheel that is neither opposed nor delayed.
+
+        Args:
+            frequency: [Hz].
+        """
+        return 1.0
 
     def driving_speed(self) -> float:
         """Speed [m/s] at which a car that drives freely begins: the manoeuvre's `speed`, or standing still."""

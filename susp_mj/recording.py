@@ -10,6 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from .character import Car
 from .errors import SimulationError
 from .features import as_json
 from .handling.block import SIGNALS
@@ -89,7 +90,9 @@ def _meta(plant: Plant, manoeuvre: Manoeuvre, step: float, road: Road | None) ->
         "vehicle": meaning.vehicle,
         "load": meaning.load,
         "model": meaning.model,
+        "car": _car(plant),
         "manoeuvre": manoeuvre.model_dump(mode="json"),
+        "character": manoeuvre.declared().plain(),
         "travel": {t.station: [t.rebound, t.compression] for t in meaning.travels},
         "facts": dict(meaning.facts),
         "places": {place.station: [place.x, place.y] for place in meaning.inputs if place.quantity == "road_height"},
@@ -98,6 +101,13 @@ def _meta(plant: Plant, manoeuvre: Manoeuvre, step: float, road: Road | None) ->
         "versions": dict(versions()),
         **({} if road is None else {"road": {"features": as_json(road.shown)}}),
     }
+
+
+def _car(plant: Plant) -> Car:
+    """What a plant is a model of."""
+    if plant.car is None:
+        return "oscillation"
+    return "handling" if plant.meaning.driving else "rig"
 
 
 @functools.cache

@@ -76,9 +76,8 @@ class Hud(ABC):
         image = Image.new("RGB", self.size, PAPER)
         draw = ImageDraw.Draw(image)
         s, width = self.scale, self.size[0]
-        meta = self.clips[0].run.meta
         middle = HEADER * s / 2
-        draw.text((18 * s, middle), describe(meta.get("manoeuvre", {})), INK, typeface(17 * s, bold=True), anchor="lm")
+        draw.text((18 * s, middle), describe(self.clips[0].run), INK, typeface(17 * s, bold=True), anchor="lm")
         text = playback_text(self.window.playback)
         font = typeface(14 * s, bold=True)
         length = font.getlength(text)

@@ -9,6 +9,7 @@ from susp_mj.errors import InputError
 from susp_mj.names import CORNERS, channel_name
 from susp_mj.run import Run
 
+from ..numbers.runs import on_tyres
 from .clip import Clip, stations_of
 
 _BODY = ("body_displacement", "body_acceleration")
@@ -54,7 +55,7 @@ HANDLING = Kind("handling", "drives freely", free=True, quality="draft")
 
 def drives_freely(run: Run) -> bool:
     """Whether a run is of a car with a place on the ground, not one over a road that passes underneath."""
-    return run.meta.get("model") == "handling" or "position_x" in run
+    return on_tyres(run) or "position_x" in run
 
 
 def kind_of(clips: Sequence[Clip]) -> Kind:

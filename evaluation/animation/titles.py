@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
+
+from susp_mj.run import Run
+
+from ..numbers.runs import character, is_a
 
 _PARAMETERS = {
     "height": ("{:+.0f} mm", 1000.0),
@@ -28,13 +30,12 @@ _PARAMETERS = {
 }
 _STEERED = {"amplitude": ("amplitude {:.3g}°", 180 / math.pi)}
 """Instead of those above where it is the steering wheel that is moved."""
-_TITLES = {"bump": "Bump", "step": "Road step", "vertical_sweep": "Vertical sine sweep", "split_mu": "Split friction"}
 
 
-def describe(manoeuvre: Mapping[str, Any]) -> str:
+def describe(run: Run) -> str:
     """One line that says what is done: ``Bump · +80 mm · 2 m long · at 50 km/h``."""
-    kind = str(manoeuvre.get("kind", "run"))
-    known = _PARAMETERS | (_STEERED if kind.endswith("steer") else {})
+    manoeuvre = run.meta.get("manoeuvre", {})
+    known = _PARAMETERS | (_STEERED if is_a(run, "steering") else {})
     parts = [
         text.format(manoeuvre[key] * factor)
         for key, (text, factor) in known.items()
@@ -42,7 +43,7 @@ def describe(manoeuvre: Mapping[str, Any]) -> str:
     ]
     if "road_class" in manoeuvre:
         parts.insert(0, f"class {manoeuvre['road_class']}")
-    return "  ·  ".join([_TITLES.get(kind, kind.replace("_", " ").capitalize()), *parts]).replace("-", "−")
+    return "  ·  ".join([character(run).title or "Run", *parts]).replace("-", "−")
 
 
 def playback_text(playback: float) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from susp_mj.run import Run
 
 from .number import Answer, Measure, Runs, no_question
-from .runs import NOT_ON_RIG, drives, facts, kind, known, on_rig, parameter, recorded
+from .runs import NOT_ON_RIG, drives, facts, is_a, known, on_rig, parameter, recorded
 from .turns import FIT, TIGHTENED, followed, tightening
 
 GRAVITY = 9.81
@@ -179,7 +179,7 @@ def _largest(run: Run, channel: str, sign: float) -> Answer:
 
 HELD = Runs(_is_held, "needs a held force or angle")
 HELD_TURN = Runs(lambda run: run in TIGHTENED or _is_held_in_a_turn(run), "needs a held lateral acceleration")
-ROLL_RIG = Runs(lambda run: kind(run) == "roll_angle", "needs a car with roll centres on the roll rig")
+ROLL_RIG = Runs(lambda run: is_a(run, "required_roll"), "needs a car with roll centres on the roll rig")
 FRONT, REAR = recorded("fl_wheel_load", "fr_wheel_load"), recorded("rl_wheel_load", "rr_wheel_load")
 NUMBERS = (
     Measure(pitch_angle_max, "rad", recorded("pitch_angle") & NOT_ON_RIG),

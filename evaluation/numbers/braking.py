@@ -13,11 +13,9 @@ import numpy as np
 from susp_mj.run import Run
 
 from .number import Answer, Measure, Runs, no_question
-from .runs import drives, facts, kind, parameter, recorded
+from .runs import beginning, driving, facts, is_a, recorded
 from .turns import axle_load, distance, first
 
-BRAKED = {"braking": "start", "split_mu": "start", "braking_in_turn": "brake_start"}
-"""Manoeuvre that brakes -> its parameter that says when."""
 STANDS = 0.1
 """Speed [m/s] below which the car counts as standing."""
 LOCKED = 0.1
@@ -28,7 +26,7 @@ HUNDRED = 100 / 3.6
 def braking_deceleration(run: Run) -> Answer:
     """Mean fully developed deceleration [m/s²]: ``(v_b² - v_e²)/(2 s)`` over the way s from 80 to 10 % of the initial
     speed."""
-    begin = braking_begins(run)
+    begin = beginning(run)
     found = _from_80_to_10(run, begin)
     if found is None:
         return Answer(None, "does not slow down to 10 % of the speed")
@@ -41,7 +39,7 @@ def braking_deceleration(run: Run) -> Answer:
 
 def stopping_distance(run: Run) -> Answer:
     """Way from the first movement of the brake pedal until the car stands [metre]."""
-    begin = braking_begins(run)
+    begin = beginning(run)
     stands = first(run["speed"][begin:] < STANDS)
     if stands is None:
         return Answer(None, f"still {3.6 * float(run['speed'][-1]):.0f} km/h at the end")
@@ -51,7 +49,7 @@ def stopping_distance(run: Run) -> Answer:
 
 def braking_load_share_front(run: Run) -> Answer:
     """Front axle's mean share of the wheel loads while braking, from 80 to 10 % of the speed."""
-    begin = braking_begins(run)
+    begin = beginning(run)
     found = _from_80_to_10(run, begin)
     if found is None:
         return Answer(None, "does not slow down to 10 % of the speed")
@@ -73,7 +71,7 @@ def wheel_lock_time(run: Run) -> Answer:
 
 def braking_yaw_deviation(run: Run) -> Answer:
     """Largest change of the heading while braking on a straight road, to either side [rad], without sign."""
-    begin = braking_begins(run)
+    begin = beginning(run)
     yaw = run["yaw_angle"][begin:] - run["yaw_angle"][begin]
     at = int(np.argmax(np.abs(yaw)))
     return Answer(abs(float(yaw[at])), _side(float(yaw[at]), "turns") if abs(yaw[at]) > 1e-3 else "")
@@ -81,7 +79,7 @@ def braking_yaw_deviation(run: Run) -> Answer:
 
 def braking_lateral_deviation(run: Run) -> Answer:
     """Largest sideways departure from the straight line while braking on a straight road [metre], without sign."""
-    begin = braking_begins(run)
+    begin = beginning(run)
     sideways = sideways_from(run, begin)
     at = int(np.argmax(np.abs(sideways)))
     return Answer(abs(float(sideways[at])), _side(float(sideways[at]), "drifts") if abs(sideways[at]) > 0.01 else "")
@@ -92,7 +90,7 @@ def braking_yaw_ratio(run: Run) -> Answer:
 
     ``psi'(1 s)/(psi'_0 v(1 s)/v_0)``: above 1 the car turns in, below 1 it runs wide.
     """
-    begin = braking_begins(run)
+    begin = beginning(run)
     later = begin + round(1.0 / run.step)
     if later >= len(run.time) or run["speed"][later] < 1.0 or abs(run["yaw_rate"][begin]) < 1e-3:
         return Answer(None, "the run or the turn ends before")
@@ -126,16 +124,6 @@ def sideways_from(run: Run, begin: int) -> np.ndarray:
     return y * np.cos(heading) - x * np.sin(heading)
 
 
-def braking_begins(run: Run) -> int:
-    """Index of the record at which the driver puts the brake on."""
-    return int(np.argmax(run.time >= _brake_time(run) - 1e-9))
-
-
-def _brake_time(run: Run) -> float:
-    """When the driver puts the brake on [s]; never in a manoeuvre without braking."""
-    return float(parameter(run, BRAKED.get(kind(run), ""), np.inf)) if drives(run) else np.inf
-
-
 def _from_80_to_10(run: Run, begin: int) -> tuple[int, int] | None:
     """Records at which the speed falls below 80 and 10 % of what it was."""
     share = run["speed"][begin:] / max(float(run["speed"][begin]), STANDS)
@@ -145,7 +133,7 @@ def _from_80_to_10(run: Run, begin: int) -> tuple[int, int] | None:
 
 def _to_hundred(run: Run, passed: np.ndarray) -> Answer:
     """How much of something, time or way, has passed between the accelerator's first movement and 100 km/h."""
-    begin, speed = first(run.time >= float(parameter(run, "start", 0.0))) or 0, run["speed"]
+    begin, speed = beginning(run), run["speed"]
     if speed[begin] >= HUNDRED:
         return no_question("is faster than 100 km/h from the beginning")
     reached = first(speed[begin:] >= HUNDRED)
@@ -158,10 +146,10 @@ def _side(value: float, verb: str) -> str:
     return f"{verb} to the {'left' if value > 0 else 'right'}"
 
 
-BRAKES = Runs(lambda run: _brake_time(run) <= run.time[-1], "does not brake")
-STRAIGHT = Runs(lambda run: kind(run) != "braking_in_turn", "does not brake on a straight road")
-IN_TURN = Runs(lambda run: kind(run) == "braking_in_turn", "does not brake in a turn")
-ACCELERATES = Runs(lambda run: drives(run) and kind(run) == "acceleration", "does not accelerate")
+BRAKES = driving("braking", "does not brake")
+STRAIGHT = Runs(lambda run: not is_a(run, "turn"), "does not brake on a straight road")
+IN_TURN = driving("turn", "does not brake in a turn")
+ACCELERATES = driving("acceleration", "does not accelerate")
 NUMBERS = (
     Measure(braking_deceleration, "m/s²", BRAKES),
     Measure(stopping_distance, "metre", BRAKES),

@@ -10,7 +10,7 @@ from susp_mj.run import Run
 
 from .braking import sideways_from
 from .number import Answer, Measure, Runs, no_question
-from .runs import DRIVES, drives, facts, kind, parameter
+from .runs import DRIVES, beginning, drives, driving, facts, is_a, parameter
 from .turns import deviation, first
 
 
@@ -26,7 +26,7 @@ def lateral_drift_2s(run: Run) -> Answer:
 
 def disturbance_yaw_rate_max(run: Run) -> Answer:
     """Largest yaw rate under the disturbance, to either side [rad/s], without sign."""
-    begin = _begins(run)
+    begin = beginning(run)
     rate = run["yaw_rate"][begin:]
     at = int(np.argmax(np.abs(rate)))
     return Answer(abs(float(rate[at])), f"{run.time[begin + at] - run.time[begin]:.2f} s after it began")
@@ -34,7 +34,7 @@ def disturbance_yaw_rate_max(run: Run) -> Answer:
 
 def disturbance_steering_max(run: Run) -> Answer:
     """Largest steering wheel angle that the driver needs against the disturbance [rad], without sign."""
-    begin = _begins(run)
+    begin = beginning(run)
     angle = run["steering_wheel_angle"][begin:] - run["steering_wheel_angle"][begin]
     return Answer(float(np.abs(angle).max()))
 
@@ -146,13 +146,8 @@ def _lane_speed(run: Run, lane: int, end: int) -> Answer:
     return Answer(float(run["speed"][at]), f"{3.6 * run['speed'][at]:.1f} km/h")
 
 
-def _begins(run: Run) -> int:
-    """Record at which the disturbance begins."""
-    return int(np.argmax(run.time >= float(parameter(run, "start", 0.0))))
-
-
 def _drift(run: Run, after: float) -> Answer:
-    sideways = sideways_from(run, _begins(run))
+    sideways = sideways_from(run, beginning(run))
     at = round(after / run.step)
     if at >= len(sideways):
         return Answer(None, "the run ends before")
@@ -160,10 +155,10 @@ def _drift(run: Run, after: float) -> Answer:
     return Answer(abs(float(sideways[at])), side)
 
 
-DISTURBED = Runs(lambda run: drives(run) and kind(run) in ("crosswind", "cross_slope"), "is not disturbed")
+DISTURBED = driving("disturbance", "is not disturbed")
 UNSTEERED = Runs(lambda run: not parameter(run, "steered", False), "a driver steers against the disturbance")
 STEERED = Runs(lambda run: parameter(run, "steered", False), "no driver steers against the disturbance")
-FOLLOWS = Runs(lambda run: kind(run) != "steady_circle", "follows its path only as long as it can")
+FOLLOWS = Runs(lambda run: not is_a(run, "tightened"), "follows its path only as long as it can")
 BETWEEN_CONES = Runs(has_cones, "no lanes of cones")
 NUMBERS = (
     Measure(lateral_drift_1s, "metre", DISTURBED & UNSTEERED),

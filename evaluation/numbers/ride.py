@@ -14,7 +14,7 @@ import numpy as np
 from susp_mj.run import Run
 
 from .number import Answer, Measure, Runs
-from .runs import drives, kind, on_rig, recorded
+from .runs import drives, is_a, on_rig, recorded
 
 SETTLED_BAND = 0.05
 """Half-width of the settling band, as a share of the largest departure from the final value."""
@@ -145,7 +145,7 @@ def stop_hits(run: Run) -> Answer:
 def _is_smooth(run: Run) -> bool:
     """Whether a car has a road that does not shake it, or a rig holds it, so that its body's vertical motion has other
     causes."""
-    if on_rig(run) or kind(run) == "cross_slope":
+    if on_rig(run) or is_a(run, "disturbance"):
         return True
     return drives(run) and not any(np.ptp(road) > 1e-9 for road in run.stations("road_height").values())
 

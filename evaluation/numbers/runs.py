@@ -1,20 +1,36 @@
-"""Kinds of runs that questions are for, and what is known of a run: its manoeuvre's parameters, facts of its car."""
+"""Kinds of runs that questions are for, and what is known of a run: its car and its manoeuvre."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
+from susp_mj.character import Car, Character, Trait
 from susp_mj.run import Run
 
 from .number import Runs
 
-RIG = "suspension_rig"
+
+def car(run: Run) -> Car:
+    """What the run is of: an oscillation model, a car that drives freely, a car on the kinematics rig."""
+    return run.meta.get("car", "oscillation")
 
 
-def kind(run: Run) -> str:
-    """Name of the run's manoeuvre."""
-    return str(run.meta.get("manoeuvre", {}).get("kind", ""))
+def character(run: Run) -> Character:
+    """What its manoeuvre is."""
+    return Character.read(run.meta.get("character", {}))
+
+
+def is_a(run: Run, *traits: Trait) -> bool:
+    """Whether any of these holds of its manoeuvre."""
+    return not set(traits).isdisjoint(character(run).traits)
+
+
+def beginning(run: Run) -> int:
+    """Index of the record at which what the manoeuvre is about begins."""
+    return int(np.argmax(run.time >= character(run).begin - 1e-9))
 
 
 def parameter(run: Run, name: str, default: Any = None) -> Any:
@@ -29,12 +45,22 @@ def facts(run: Run) -> Mapping[str, float]:
 
 def drives(run: Run) -> bool:
     """Whether the car of this run drives freely; an oscillation model or a car on a rig does not."""
-    return "yaw_rate" in run and "speed" in run and kind(run) != RIG
+    return car(run) == "handling"
 
 
 def on_rig(run: Run) -> bool:
     """Whether the car stands on the kinematics rig, which holds its body."""
-    return kind(run) == RIG
+    return car(run) == "rig"
+
+
+def on_tyres(run: Run) -> bool:
+    """Whether the car stands or rolls on tyres with slip."""
+    return car(run) != "oscillation"
+
+
+def driving(trait: Trait, otherwise: str) -> Runs:
+    """Runs of a freely driving car of whose manoeuvre something holds, and that last until it begins."""
+    return Runs(lambda run: drives(run) and is_a(run, trait) and character(run).begin <= run.time[-1], otherwise)
 
 
 DRIVES = Runs(drives, "the car does not drive freely")

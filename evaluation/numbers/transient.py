@@ -15,7 +15,7 @@ import numpy as np
 from susp_mj.run import Run
 
 from .number import Answer, Measure, Runs
-from .runs import drives, kind, parameter
+from .runs import character, driving
 from .turns import first
 
 REACHED = 0.9
@@ -56,7 +56,7 @@ def step_response(run: Run, channel: str) -> Step:
         if half
         else run.time[half]
     )
-    start = min(float(parameter(run, "start", 0.0)), float(begin))
+    start = min(character(run).begin, float(begin))
     before = float(np.interp(start, run.time, run[channel]))
     values = run[channel] - before
     averaged = values[end - max((end - held) // 5, 1) : end]
@@ -169,12 +169,8 @@ def _gain(run: Run, channel: str) -> Answer:
     return Answer(step.steady / step.angle, step.note)
 
 
-def _steps(run: Run) -> bool:
-    """Whether the steering wheel of a freely driving car makes a step."""
-    return drives(run) and kind(run) == "step_steer" and bool(np.ptp(run["steering_wheel_angle"]) > 0.0)
-
-
-STEPPED = Runs(_steps, "needs a step of the steering wheel")
+TURNED = Runs(lambda run: bool(np.ptp(run["steering_wheel_angle"]) > 0.0), "the steering wheel stands still")
+STEPPED = driving("steering_step", "needs a step of the steering wheel") & TURNED
 NUMBERS = (
     Measure(yaw_rate_response_time, "s", STEPPED),
     Measure(lateral_acceleration_response_time, "s", STEPPED),

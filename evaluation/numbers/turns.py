@@ -7,11 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from susp_mj.features import Course, features_in
+from susp_mj.features import Circle, Course, features_in
 from susp_mj.run import Run
 
-from .number import Runs
-from .runs import drives, kind, parameter
+from .runs import character, driving, parameter
 
 FIT = (1.0, 4.0)
 """Lateral accelerations [m/s²] between which gradients are fitted: tyres and springs are near linear there."""
@@ -19,23 +18,25 @@ LEFT = 0.03
 """Departure from a circle, as a share of its radius, at which the car no longer follows it."""
 LOST = 0.1
 """Share of its speed after whose loss a car on a ramp of the steering wheel slides rather than turns."""
-AVERAGED: dict[str, float] = {"ramp_steer": 0.1, "steady_circle": 2.0}
-"""Manoeuvre of which every instant is close to a steady turn -> length of the average that takes quick events out of it
-[s]."""
-SLOWLY_TIGHTENED = tuple(AVERAGED)
+TIGHTENED = driving("tightened", "needs a slowly tightened turn")
 
 
 def deviation(run: Run) -> np.ndarray | None:
     """How far the centre of gravity is to the left of the driver's path [m]; None where no driver follows one."""
     if "path_deviation" in run:
         return run["path_deviation"]
-    x, y, radius = run["position_x"], run["position_y"], parameter(run, "radius")
-    if kind(run) == "steady_circle" and radius:
+    x, y, radius = run["position_x"], run["position_y"], circle(run)
+    if radius is not None:
         return (abs(radius) - np.hypot(x, y - radius)) * np.sign(radius)
     course = next((each for each in features_in(run.meta) if isinstance(each, Course)), None)
     if course is not None:
         return y - np.interp(x, course.x, course.y)
     return y if parameter(run, "steered", False) else None
+
+
+def circle(run: Run) -> float | None:
+    """Radius [m] of the circle that the driver follows, positive to the left; None if there is none."""
+    return next((each.radius for each in features_in(run.meta) if isinstance(each, Circle)), None)
 
 
 def followed(run: Run) -> int:
@@ -44,12 +45,13 @@ def followed(run: Run) -> int:
 
     What comes after, a spin perhaps, is no steady turn any more. All records of any other run.
     """
-    left = None
-    away = deviation(run) if kind(run) == "steady_circle" else None
-    if away is not None:
-        left = first(np.abs(away) > LEFT * abs(parameter(run, "radius", 100.0)))
-    elif kind(run) == "ramp_steer":
+    if run not in TIGHTENED:
+        return len(run.time)
+    radius, away = circle(run), deviation(run)
+    if radius is None or away is None:
         left = first(run["speed"] < (1 - LOST) * run["speed"][0])
+    else:
+        left = first(np.abs(away) > LEFT * abs(radius))
     return len(run.time) if left is None else max(left, 2)
 
 
@@ -103,12 +105,9 @@ class Tightening:
         return slope(self.acceleration[inside], values[inside])
 
 
-TIGHTENED = Runs(lambda run: drives(run) and kind(run) in SLOWLY_TIGHTENED, "needs a slowly tightened turn")
-
-
 def tightening(run: Run) -> Tightening:
     """The tightening turn of a run that is `TIGHTENED`."""
-    side, width = turn(run), max(round(AVERAGED[kind(run)] / run.step), 1)
+    side, width = turn(run), max(round(character(run).average / run.step), 1)
     acceleration = side * averaged(run["lateral_acceleration"], width)[: followed(run)]
     return Tightening(side, width, acceleration[: int(np.argmax(acceleration)) + 1])
 

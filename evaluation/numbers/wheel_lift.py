@@ -11,8 +11,8 @@ from susp_mj.run import Run
 
 from .number import Answer, Measure, Runs, no_question
 from .ride import CONTACT_LOST
-from .runs import drives, kind
-from .turns import first, followed, inner, lasting
+from .runs import drives
+from .turns import circle, first, followed, inner, lasting
 
 TURNING = 1.0
 """Lateral acceleration [m/s²] from which on a wheel is an inner one."""
@@ -52,7 +52,7 @@ def lifts(run: Run) -> list[Lift]:
 
 def _watched(run: Run) -> int:
     """Number of records in which a lift counts: of a ramp all of them, a wheel may lift while the car slides."""
-    return len(run.time) if kind(run) == "ramp_steer" else followed(run)
+    return len(run.time) if circle(run) is None else followed(run)
 
 
 def wheel_lift_time(run: Run) -> Answer:

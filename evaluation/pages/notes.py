@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..plots.channels import HANDLING, STATIONS
+from ..numbers.runs import on_tyres
+from ..plots.channels import STATIONS
 from ..plots.steering import STEERED
 
 if TYPE_CHECKING:
@@ -80,7 +81,7 @@ def elements_used(comparison: Comparison) -> list[dict[str, Any]]:
         for each in comparison.configurations
         for c in each.characteristics
         for note in c.elements
-        if note.role != ("tyre" if each.run.meta.get("model") == HANDLING else "handling_tyre")
+        if note.role != ("tyre" if on_tyres(each.run) else "handling_tyre")
     }
     order = list(dict.fromkeys(role for role, _ in notes))
     return [

@@ -25,8 +25,6 @@ STATIONS = {
     "rear": "rear axle",
 }
 """Stations as a reader calls them."""
-HANDLING = "handling"
-"""The model that rolls on tyres with slip."""
 
 
 def quantity_label(quantity: str) -> str:

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 
 from susp_mj.files import write_text
 
-from ..numbers.runs import drives, on_rig
+from ..numbers.runs import drives, on_rig, on_tyres
 from ..numbers.turns import TIGHTENED
-from .channels import HANDLING
 from .characteristics import characteristic_plots
 from .ground import acceleration_plots, course_plots
 from .over_time import axle_load_plots, time_plots, together_plots
@@ -35,7 +34,7 @@ def draw(comparison: Comparison) -> dict[str, str]:
     if not comparison.configurations:
         return {}
     sets = {each.name: each.characteristics for each in comparison.configurations}
-    rolling = any(each.run.meta.get("model") == HANDLING for each in comparison.configurations)
+    rolling = any(on_tyres(each.run) for each in comparison.configurations)
     return {
         **handling_plots(comparison),
         **amplification_plots(comparison),

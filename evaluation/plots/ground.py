@@ -12,7 +12,7 @@ from susp_mj.run import Run
 
 from ..colours import INK, MUTED, PAPER
 from ..numbers.course import corners, has_cones
-from ..numbers.runs import facts, kind
+from ..numbers.runs import facts, is_a
 from .figure import colour, draw_line, draw_svg, label_axes, make_panels, thinned_way
 
 if TYPE_CHECKING:
@@ -21,10 +21,6 @@ if TYPE_CHECKING:
 
     from ..compare import Configuration
 
-GROUND = ("lane_change", "crosswind", "cross_slope", "split_mu", "braking_in_turn", "steady_circle")
-"""Manoeuvres whose way over the ground is drawn."""
-CIRCLE_OF_FORCES = ("lane_change", "braking_in_turn", "split_mu")
-"""Manoeuvres whose longitudinal acceleration is drawn over the lateral one, if both are there."""
 _ACCELERATIONS = ("lateral_acceleration", "longitudinal_acceleration")
 _WIDE = (8.8, 2.6)
 _ROUND = (4.4, 4.4)
@@ -32,26 +28,26 @@ _ROUND = (4.4, 4.4)
 
 def course_plots(configurations: Sequence[Configuration]) -> dict[str, str]:
     """Way over the ground, as SVG text by name; empty for manoeuvres that say nothing by it."""
-    drawn = kind(configurations[0].run) in GROUND
+    drawn = is_a(configurations[0].run, "course")
     return {"course_handling": draw_svg(_ground_figure, configurations)} if drawn else {}
 
 
 def acceleration_plots(configurations: Sequence[Configuration]) -> dict[str, str]:
     """Longitudinal over lateral acceleration, as SVG text by name; empty unless a car has both."""
-    drawn = kind(configurations[0].run) in CIRCLE_OF_FORCES and any(
-        min(np.ptp(each.run[name]) for name in _ACCELERATIONS) > 1.0 for each in configurations
-    )
+    run = configurations[0].run
+    drawn = is_a(run, "course") and not is_a(run, "tightened") and any(_has_both(each.run) for each in configurations)
     return {"accelerations_handling": draw_svg(_accelerations_figure, configurations)} if drawn else {}
 
 
 def _ground_figure(configurations: Sequence[Configuration]) -> Figure:
     """Way of the centre of gravity over the ground, with what stands or lies there."""
-    turns = kind(configurations[0].run) in ("steady_circle", "braking_in_turn")
+    turns = is_a(configurations[0].run, "turn")
     figure, (panel,) = make_panels([each.name for each in configurations], [""], size=_ROUND if turns else _WIDE)
     _draw_features(panel, configurations[0].run)
     for order, each in enumerate(configurations):
         run = each.run
-        beside = corners(run).values() if has_cones(run) else _front_wheels(run) if kind(run) == "split_mu" else ()
+        slippery = any(isinstance(each, Patch) for each in features_in(run.meta))
+        beside = corners(run).values() if has_cones(run) else _front_wheels(run) if slippery else ()
         for x, y in beside:
             panel.plot(*thinned_way(x, y), color=colour(order), linewidth=0.6, alpha=0.55)
         draw_line(panel, order, *thinned_way(run["position_x"], run["position_y"]))
@@ -117,6 +113,10 @@ def _box(panel: Axes, x: Sequence[float], y: Sequence[float] | None, words: str,
         fontsize=7.5,
         color=MUTED,
     )
+
+
+def _has_both(run: Run) -> bool:
+    return min(np.ptp(run[name]) for name in _ACCELERATIONS) > 1.0
 
 
 def _accelerations_figure(configurations: Sequence[Configuration]) -> Figure:

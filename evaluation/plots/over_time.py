@@ -13,9 +13,9 @@ from susp_mj.run import Run
 from ..colours import INK, MUTED
 from ..display import Shown, shown
 from ..numbers.ride import CONTACT_LOST, INPUTS
-from ..numbers.runs import drives, kind
+from ..numbers.runs import character, drives, is_a, on_tyres
 from ..numbers.turns import stations_of
-from .channels import HANDLING, quantity_label, stands_still, station_name, stations_with
+from .channels import quantity_label, stands_still, station_name, stations_with
 from .figure import colour, draw_line, draw_svg, label_axes, make_panels, spans, stop_lines, thinned, zero_line
 
 if TYPE_CHECKING:
@@ -39,60 +39,6 @@ TIME_QUANTITIES = (
     "rig_moment",
 )
 ELEMENT_FORCES = ("spring_force", "stop_force", "damper_force", "bar_force", "friction_force")
-_TRANSIENT = (
-    "steering_wheel_angle",
-    "yaw_rate",
-    "lateral_acceleration",
-    "roll_angle",
-    "pitch_angle",
-    "body_displacement",
-)
-_COURSE = (
-    "steering_wheel_angle",
-    "yaw_rate",
-    "lateral_acceleration",
-    "side_slip_angle",
-    "roll_angle",
-    "path_deviation",
-)
-_PEDALS = ("speed", "longitudinal_acceleration", "pitch_angle", "body_displacement")
-TOGETHER: dict[str, tuple[str, ...]] = {
-    "ramp_steer": (
-        "steering_wheel_angle",
-        "speed",
-        "yaw_rate",
-        "lateral_acceleration",
-        "roll_angle",
-        "rear_side_slip_angle",
-    ),
-    "step_steer": _TRANSIENT,
-    "sine_steer": _TRANSIENT,
-    "swept_steer": ("steering_wheel_angle", "yaw_rate", "lateral_acceleration", "roll_angle"),
-    "steady_circle": ("steering_wheel_angle", "speed", "lateral_acceleration", "path_deviation"),
-    "lane_change": _COURSE,
-    "crosswind": ("wind_y", "yaw_rate", "lateral_acceleration", "roll_angle", "steering_wheel_angle", "path_deviation"),
-    "cross_slope": ("yaw_rate", "lateral_acceleration", "steering_wheel_angle", "path_deviation"),
-    "acceleration": (*_PEDALS, "engine_speed", "gear"),
-    "braking": _PEDALS,
-    "braking_in_turn": (
-        "speed",
-        "longitudinal_acceleration",
-        "yaw_rate",
-        "lateral_acceleration",
-        "rear_side_slip_angle",
-        "roll_angle",
-    ),
-    "split_mu": (
-        "speed",
-        "longitudinal_acceleration",
-        "yaw_rate",
-        "yaw_angle",
-        "steering_wheel_angle",
-        "path_deviation",
-    ),
-}
-"""Manoeuvre -> quantities that are drawn over time in one figure."""
-LOADED = ("acceleration", "braking", "braking_in_turn", "split_mu")
 _QUIET = {"rad": 1e-4, "m": 1e-4, "m/s": 1e-3, "m/s²": 0.05}
 """Range [SI unit] of a quantity of a handling car below which it is not drawn over time."""
 _SHOWN = {
@@ -123,7 +69,7 @@ def time_plots(comparison: Comparison) -> dict[str, str]:
 def _is_quiet(configurations: Sequence[Configuration], quantity: str) -> bool:
     """Whether a quantity is not worth a plot: an input that is not used, or anything that a handling car hardly
     moves."""
-    if any(each.run.meta.get("model") != HANDLING for each in configurations):
+    if not all(on_tyres(each.run) for each in configurations):
         return quantity in INPUTS and stands_still(configurations, quantity)
     least = _QUIET.get(QUANTITIES[quantity][0], 0.0)
     return all(np.ptp(values) <= least for each in configurations for values in each.run.stations(quantity).values())
@@ -182,7 +128,7 @@ def shown_together(configurations: Sequence[Configuration]) -> tuple[str, ...]:
     """Quantities over time that one figure of the manoeuvre shows together, of those that move at all."""
     if not configurations or not all(drives(each.run) for each in configurations):
         return ()
-    wanted = TOGETHER.get(kind(configurations[0].run), ())
+    wanted = character(configurations[0].run).together
     return tuple(quantity for quantity in wanted if any(_moves(each.run, quantity) for each in configurations))
 
 
@@ -193,7 +139,7 @@ def together_plots(configurations: Sequence[Configuration]) -> dict[str, str]:
 
 def axle_load_plots(configurations: Sequence[Configuration]) -> dict[str, str]:
     """Load of each axle over time, as SVG text by name; empty for manoeuvres that do not move it fore and aft."""
-    drawn = kind(configurations[0].run) in LOADED
+    drawn = is_a(configurations[0].run, "braking", "acceleration")
     return {"axle_loads_handling": draw_svg(_axle_load_figure, configurations)} if drawn else {}
 
 

@@ -32,7 +32,7 @@ def compare(
 ) -> Comparison:
     """The three sets of chapter 3 under one manoeuvre."""
     manoeuvre = manoeuvre or Bump(duration=1.5)
-    numbers = [each.name for each in (frequency if manoeuvre.kind == "vertical_sweep" else ride).NUMBERS]
+    numbers = [each.name for each in (frequency if manoeuvre.road_sweep() else ride).NUMBERS]
     configurations = []
     for key, name in names.items():
         car = load_vehicle("chapter3", key)

@@ -80,7 +80,9 @@ def made_up(
         "vehicle": "made up",
         "load": "ko",
         "model": "handling",
+        "car": "rig" if manoeuvre.rig == "k_and_c" else "handling",
         "manoeuvre": manoeuvre.model_dump(mode="json"),
+        "character": manoeuvre.declared().plain(),
         "travel": {corner: [-0.1, 0.09] for corner in CORNERS},
         "facts": {**Bicycle().facts, **(facts or {})},
         "road": {"features": [] if road is None else as_json(road.shown)},
@@ -88,6 +90,12 @@ def made_up(
         "versions": {"susp_mj": "0", "mujoco": "0"},
     }
     return run_of(time, values, meta)
+
+
+def titled(manoeuvre: Manoeuvre) -> Run:
+    """A run of a manoeuvre without channels."""
+    meta = {"manoeuvre": manoeuvre.model_dump(mode="json"), "character": manoeuvre.declared().plain()}
+    return Run(np.array([0.0, 1e-3]), {}, meta)
 
 
 @dataclass(frozen=True)

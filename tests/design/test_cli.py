@@ -13,9 +13,8 @@ import pytest
 from typer.testing import CliRunner
 
 from design.cli import app
-from design.script import default_model
 from evaluation.animation import video
-from manoeuvres import find_manoeuvre
+from manoeuvres import MANOEUVRES, find_manoeuvre
 from susp_mj import InputError
 
 ROOT = Path(__file__).parents[2]
@@ -35,7 +34,6 @@ def script(name: str, *arguments: str, cwd: Path) -> subprocess.CompletedProcess
 
 def test_list_names_everything_registered():
     from evaluation.numbers import NUMBERS
-    from manoeuvres import MANOEUVRES
     from susp_mj.elements import DAMPERS, SPRINGS
     from vehicles import available_vehicles
     from vehicles.mjcf import MODELS
@@ -188,7 +186,7 @@ def test_new_makes_a_car_that_can_be_shown_built_and_driven(tmp_path):
 )
 def test_a_manoeuvre_is_a_script(tmp_path, name):
     sets = ("configuration_3", "configuration_4")
-    model = default_model(find_manoeuvre("step" if name == "road_step" else name))
+    model = MANOEUVRES[find_manoeuvre("step" if name == "road_step" else name)].default_model
     options = () if model == "handling" else ("-m", "full_3dof")
     length = (
         "8 s" if name in ("braking_in_turn", "swept_steer", "lenksweep", "suspension_rig", "steady_circle") else "2 s"

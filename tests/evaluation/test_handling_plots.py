@@ -15,7 +15,7 @@ from evaluation.pages.report import write_report
 from evaluation.pages.summary import write_summary
 from evaluation.plots.channels import STATIONS
 from evaluation.plots.drawing import draw, handling_plots
-from evaluation.plots.over_time import TOGETHER, shown_together, time_plots
+from evaluation.plots.over_time import shown_together, time_plots
 from evaluation.plots.rig import RIG_CURVES
 from evaluation.plots.steering import STEERED
 from manoeuvres import (
@@ -176,12 +176,12 @@ def test_a_mixture_with_another_model_is_drawn_the_common_way():
     from dataclasses import replace
 
     mixed = compared(bump)
-    assert handling_plots(replace(mixed, configurations=[*mixed.configurations, other])) == {}
+    assert handling_plots(replace(mixed, outcomes=[*mixed.configurations, other])) == {}
 
 
 def test_quantities_drawn_together_are_channels_of_known_manoeuvres():
-    for kind, quantities in TOGETHER.items():
-        assert kind in MANOEUVRES and set(quantities) <= set(QUANTITIES), kind
+    for kind, manoeuvre in MANOEUVRES.items():
+        assert set(manoeuvre.character.together) <= set(QUANTITIES), kind
     assert set(CORNERS) <= set(STATIONS)
 
 

@@ -114,7 +114,7 @@ def test_equal_curves_of_two_configurations_are_both_seen(drawn):
 
 
 def test_four_wheels_become_four_panels(bump):
-    car = replace(bump, configurations=[replace(each, run=on_four_wheels(each.run)) for each in bump.configurations])
+    car = replace(bump, outcomes=[replace(each, run=on_four_wheels(each.run)) for each in bump.configurations])
     plots = time_plots(car)
     assert {"front left", "front right", "rear left", "rear right"} <= set(texts(plots["wheel_load"]))
     assert all(len(lines(plots["wheel_load"], colour(order))) == 4 for order in range(3))

@@ -192,7 +192,7 @@ def test_an_element_of_the_users_own_is_described_by_its_docstring(comparison, p
         "spring", "air_bag", "An air bag: ``F < p A``.\n\nMore of it.\n\nAttributes:\n    area: concealed."
     )
     changed = replace(first, characteristics=[replace(first.characteristics[0], elements=(note,))])
-    html = write_report(replace(comparison, configurations=[changed]), tmp_path / "r.html", plots=plots).read_text(
+    html = write_report(replace(comparison, outcomes=[changed]), tmp_path / "r.html", plots=plots).read_text(
         encoding="utf-8"
     )
     assert (
@@ -212,7 +212,7 @@ def test_user_text_is_escaped_everywhere(comparison, plots, tmp_path):
         "body_acceleration_rms": Number(1.0, "m/s²", evil),
     }
     changed = replace(comparison, title=evil, description=evil, claims=(Claim(evil, evil, evil, True),))
-    changed = replace(changed, configurations=[replace(first, name=evil, title=evil, numbers=numbers)])
+    changed = replace(changed, outcomes=[replace(first, name=evil, title=evil, numbers=numbers)])
     html = write_report(changed, tmp_path / "r.html", plots=plots).read_text(encoding="utf-8")
     assert "<img src=x" not in html and "&lt;img src=x" in html
 
@@ -246,7 +246,7 @@ def test_summary_is_strict_json_even_with_values_that_json_lacks(comparison, tmp
     first = comparison.configurations[0]
     odd = replace(first, numbers={**first.numbers, "settling_time": Number(float("nan"), "s")})
     extra = {"timings": {"simulate": np.float64(0.5)}, "limit": float("inf"), "counts": np.arange(2)}
-    path = write_summary(replace(comparison, configurations=[odd]), tmp_path / "summary.json", extra)
+    path = write_summary(replace(comparison, outcomes=[odd]), tmp_path / "summary.json", extra)
 
     def refuse(text):
         raise AssertionError(f"{text} is not JSON")

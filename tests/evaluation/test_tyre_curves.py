@@ -121,19 +121,19 @@ def test_the_report_shows_the_tyre_of_the_model_that_rolls_on_it(tyre, tmp_path)
     (configuration,) = comparison.configurations
     axle = load_vehicle("chapter3", "linear").axle("rear").model_copy(update={"handling_tyre": tyre})
     pages = {}
-    for model in ("quarter_2dof", "handling"):
-        run = replace(configuration.run, meta={**configuration.run.meta, "model": model})
+    for car in ("oscillation", "rig"):
+        run = replace(configuration.run, meta={**configuration.run.meta, "car": car})
         each = replace(configuration, run=run, characteristics=[characteristic("rear axle", axle)])
-        pages[model] = write_report(replace(comparison, configurations=[each]), tmp_path / f"{model}.html").read_text(
+        pages[car] = write_report(replace(comparison, outcomes=[each]), tmp_path / f"{car}.html").read_text(
             encoding="utf-8"
         )
-        assert set(NAMES) <= set(draw(replace(comparison, configurations=[each]))) or model != "handling"
-    assert "Tyre combined slip" not in pages["quarter_2dof"]
-    assert "Tyre combined slip" in pages["handling"]
+        assert set(NAMES) <= set(draw(replace(comparison, outcomes=[each]))) or car != "rig"
+    assert "Tyre combined slip" not in pages["oscillation"]
+    assert "Tyre combined slip" in pages["rig"]
     name = {"linear": "Tyre: linear", "magic_formula": "Magic Formula 5.2", "magic_formula_61": "Magic Formula 6.1"}[
         tyre.kind
     ]
-    assert name in pages["handling"]
-    assert name not in pages["quarter_2dof"]
-    assert "Tyre spring" in pages["quarter_2dof"]
-    assert "Tyre spring" not in pages["handling"]
+    assert name in pages["rig"]
+    assert name not in pages["oscillation"]
+    assert "Tyre spring" in pages["oscillation"]
+    assert "Tyre spring" not in pages["rig"]

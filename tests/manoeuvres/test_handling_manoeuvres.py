@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 from design.case import available_cases, load_case, read_manoeuvre
-from design.script import case_from_arguments, default_model
+from design.script import case_from_arguments
 from manoeuvres import (
-    ALIASES,
     MANOEUVRES,
     Acceleration,
     Braking,
@@ -98,7 +97,7 @@ def test_german_names(german, manoeuvre):
 def test_the_thesis_names_are_scripts():
     for german in ("zuziehen", "lenkwinkelsprung", "lenksweep", "lenkeinsinus"):
         script = ROOT / "manoeuvres" / f"{german}.py"
-        assert f'manoeuvre_script("{ALIASES[german]}")' in script.read_text()
+        assert f'manoeuvre_script("{find_manoeuvre(german)}")' in script.read_text()
         result = subprocess.run(
             [sys.executable, str(script), "--help"], capture_output=True, text=True, timeout=60, check=False
         )
@@ -107,9 +106,9 @@ def test_the_thesis_names_are_scripts():
 
 
 def test_models_that_scripts_take_by_themselves():
-    assert default_model("ramp_steer") == default_model("suspension_rig") == "handling"
-    assert default_model("bump") == "quarter_2dof"
-    assert default_model("lateral_force") == "full_3dof"
+    assert MANOEUVRES["ramp_steer"].default_model == MANOEUVRES["suspension_rig"].default_model == "handling"
+    assert MANOEUVRES["bump"].default_model == "quarter_2dof"
+    assert MANOEUVRES["lateral_force"].default_model == "full_3dof"
     case = case_from_arguments("ramp_steer", []).case
     assert case.model == "handling"
     assert [(each.vehicle, each.characteristics) for each in case.configuration] == [

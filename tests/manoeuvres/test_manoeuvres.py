@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 import pytest
 
-from manoeuvres import ALIASES, MANOEUVRES, Bump, RoadStep, VerticalSweep, find_manoeuvre
+from manoeuvres import MANOEUVRES, Bump, RoadStep, VerticalSweep, find_manoeuvre, register
 from susp_mj import InputError
 from susp_mj.description import validate
 from susp_mj.meaning import Input
@@ -37,10 +39,27 @@ def test_registered_under_its_own_name(kind):
 
 def test_names_and_aliases():
     assert all(find_manoeuvre(kind) == kind for kind in MANOEUVRES)
-    assert {find_manoeuvre(alias.upper()) for alias in ALIASES} <= set(MANOEUVRES)
+    assert all(find_manoeuvre(each.german.upper()) == kind for kind, each in MANOEUVRES.items())
     assert find_manoeuvre("Bodenwelle") == "bump"
     with pytest.raises(InputError, match="did you mean 'bump'"):
         find_manoeuvre("bum")
+
+
+def test_a_manoeuvre_of_one_s_own_is_registered_once():
+    class Kerb(RoadStep):
+        """A high step."""
+
+        kind: Literal["kerb"] = "kerb"
+
+    register(Kerb)
+    try:
+        assert MANOEUVRES[find_manoeuvre("kerb")] is Kerb
+        assert find_manoeuvre("schwelle") == "step", "the German name stays the parent's"
+        register(Kerb)
+        with pytest.raises(InputError, match="'kerb' of Other is taken"):
+            register(type("Other", (Kerb,), {"__module__": __name__}))
+    finally:
+        del MANOEUVRES["kerb"]
 
 
 @pytest.mark.parametrize(("kind", "quantity"), list(kinds_and_needs()))

@@ -30,6 +30,8 @@ from susp_mj.run import Run, described
 from vehicles import load_vehicle
 from vehicles.mjcf import OSCILLATION, build
 
+from ...builders.runs import titled
+
 SIZE, FPS = (320, 180), 10
 
 
@@ -398,7 +400,7 @@ def test_wheels_that_do_not_follow_one_road_stand_on_a_rig():
     ],
 )
 def test_header_says_what_is_done(manoeuvre, text):
-    assert describe(manoeuvre.model_dump(mode="json")) == text
+    assert describe(titled(manoeuvre)) == text
 
 
 def test_what_a_run_does_not_say_is_taken_from_a_usual_car():

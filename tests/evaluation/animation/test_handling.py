@@ -26,13 +26,15 @@ from evaluation.animation.style import Style
 from evaluation.animation.titles import describe
 from evaluation.animation.window import window_of
 from evaluation.colours import COLOURS, rgb
-from manoeuvres import LaneChange
+from manoeuvres import Crosswind, LaneChange, SineSteer, SteadyCircle
 from susp_mj import InputError, simulate
 from susp_mj.features import Bump, Circle, Cones, Course, CrossSlope, Gust, Patch, as_json
 from susp_mj.names import CORNERS, channel_name
 from susp_mj.run import Run, described
 from vehicles import load_vehicle
 from vehicles.mjcf import build
+
+from ...builders.runs import titled
 
 SIZE, FPS = (320, 180), 10
 
@@ -144,6 +146,7 @@ def driven(
     meta = {
         "title": "synthetic",
         "model": "handling",
+        "car": "handling",
         "manoeuvre": {"kind": kind, "speed": speed},
         "facts": FACTS,
         "road": {"features": as_json(features)},
@@ -389,15 +392,18 @@ def test_driver_circle_is_a_feature():
     ("manoeuvre", "text"),
     [
         (
-            {"kind": "sine_steer", "amplitude": np.pi / 3, "frequency": 0.5, "speed": 20.0},
+            SineSteer(amplitude="60 deg", frequency=0.5, speed=20.0),
             "Sine steer  ·  amplitude 60°  ·  0.5 Hz  ·  at 72 km/h",
         ),
-        ({"kind": "steady_circle", "radius": 100.0, "speed": 10.0}, "Steady circle  ·  radius 100 m  ·  at 36 km/h"),
-        ({"kind": "crosswind", "wind": 20.0, "speed": 27.78}, "Crosswind  ·  wind 20 m/s  ·  at 100 km/h"),
+        (SteadyCircle(radius=100.0, speed=10.0), "Steady circle  ·  radius 100 m  ·  at 36 km/h"),
+        (
+            Crosswind(wind=20.0, length=30.0, speed=27.78),
+            "Crosswind  ·  30 m long  ·  wind 20 m/s  ·  at 100 km/h",
+        ),
     ],
 )
 def test_header_says_how_it_is_driven(manoeuvre, text):
-    assert describe(manoeuvre) == text
+    assert describe(titled(manoeuvre)) == text
 
 
 # ---- the road --------------------------------------------------------------------------------------------------------
