@@ -13,7 +13,7 @@ from evaluation.characteristics import characteristic
 from evaluation.compare import Comparison, Configuration, Failure, Outcome
 from evaluation.numbers import NUMBERS, evaluate
 from evaluation.plots.sweeps import SWEEP_QUANTITIES
-from susp_mj.batch import Progress, side_by_side
+from susp_mj.batch import Progress, free_memory, side_by_side
 from susp_mj.errors import InputError, SimulationError
 from susp_mj.linear import Linear, linearise
 from susp_mj.manoeuvre import Manoeuvre
@@ -23,7 +23,7 @@ from susp_mj.plant import Plant
 from susp_mj.plugins import load_plugins
 from susp_mj.recording import Diverged
 from susp_mj.run import Run
-from susp_mj.simulation import simulate
+from susp_mj.simulation import MOST_STEPS, STEP, simulate
 from vehicles.mjcf import HANDLING, build
 from vehicles.reading import load_vehicle
 from vehicles.vehicle import Vehicle
@@ -32,6 +32,8 @@ from .case import Case, Setting, read_manoeuvre, usual_load
 
 Report = Callable[[str, float], None]
 """Progress: called with what is being done and the fraction done, 0 to 1."""
+RECORD = 1500
+"""Memory of one record of the largest model [bytes]: 125 channels, and half as much again while they are made."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +105,7 @@ def run_case(
         InputError: naming file, key and value; what is wrong in a file ends the work under way.
     """
     jobs = jobs_of(case, path)
+    _check_memory(case, path.name)
     outcomes = side_by_side(
         jobs,
         prepare,
@@ -113,6 +116,20 @@ def run_case(
     )
     outcomes = _shown(outcomes, {*case.numbers, *case.criteria})
     return Comparison(case.title, case.description, outcomes, case.bands())
+
+
+def _check_memory(case: Case, source: str) -> None:
+    """Refuse records that memory does not hold: those of every configuration are kept until the results are written."""
+    duration, runs = read_manoeuvre(case.manoeuvre, source).duration, len(case.settings)
+    spacing = (case.step or STEP) * (case.record_every or 1)
+    needed, free = runs * duration / spacing * RECORD, free_memory()
+    if needed > free and duration / spacing <= MOST_STEPS:  # a longer one is refused by itself
+        raise InputError(
+            f"{runs} runs of {duration:g} s with a record every {1000 * spacing:g} ms take {needed / 1e9:.3g} GB; "
+            f"free are {free / 1e9:.3g} GB; a record every {1000 * spacing * needed / free:.3g} ms would do",
+            key="record_every",
+            source=source,
+        )
 
 
 def jobs_of(case: Case, path: Path) -> list[Job]:

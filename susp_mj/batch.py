@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import TypeVar
 
 from .errors import InputError
@@ -20,6 +22,16 @@ Progress = Callable[[float], None]
 def usable_cores() -> int:
     """Number of processor cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def free_memory() -> float:
+    """Memory [bytes] that programs can still take; infinite where the system does not tell."""
+    try:
+        text = Path("/proc/meminfo").read_text(encoding="ascii")
+    except OSError:
+        return math.inf
+    kilobytes = next((line.split()[1] for line in text.splitlines() if line.startswith("MemAvailable:")), None)
+    return math.inf if kilobytes is None else 1024.0 * int(kilobytes)
 
 
 def side_by_side(

@@ -112,3 +112,15 @@ def test_results_without_any_run(tmp_path):
     assert json.loads((out / "summary.json").read_text())["passed"] is False
     assert "tall has no run." in (out / "report.html").read_text()
     assert not (out / "plots").exists()
+
+
+def test_records_that_memory_does_not_hold_are_refused(tmp_path, monkeypatch):
+    path = tmp_path / "mine.toml"
+    path.write_text(STEP + LOW)
+    monkeypatch.setattr("design.running.free_memory", lambda: 3e6)
+    with pytest.raises(InputError, match=r"mine\.toml: record_every: 2 runs of 2 s .* take 0\.006 GB; free are 0\.003 GB"):
+        run_case(*load_case(path))
+    path.write_text("record_every = 3\n" + STEP + LOW)
+    monkeypatch.setattr("design.running.prepare", lambda job: pytest.fail("goes on"))
+    with pytest.raises(pytest.fail.Exception, match="goes on"):
+        run_case(*load_case(path))
