@@ -13,7 +13,7 @@ from design.results import carry_out
 from evaluation.numbers import NUMBERS
 from susp_mj import Plant, simulate
 from susp_mj.elements.tyres.tir import load_tyre
-from susp_mj.errors import InputError, SimulationError
+from susp_mj.errors import InputError
 from susp_mj.handling.block import CAR_NUMERIC, HEAD, WHEEL
 from vehicles.mjcf import build, write
 from vehicles.reading import FOLDER, load_vehicle
