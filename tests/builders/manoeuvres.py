@@ -86,3 +86,9 @@ class SteadySine(Manoeuvre):
         fade, fade_rate = np.sin(np.pi / 2 * share) ** 2, np.pi / 2 / ramp * np.sin(np.pi * share)
         sine, cosine = self.amplitude * np.sin(w * time), self.amplitude * np.cos(w * time)
         return fade * sine, fade * w * cosine + fade_rate * sine
+
+
+def under_another_kind(manoeuvre: type[Manoeuvre]) -> type[Manoeuvre]:
+    """A subclass that differs in its kind alone."""
+    own = {"__module__": __name__, "__annotations__": {"kind": Literal["own"]}, "kind": "own"}
+    return type("Own", (manoeuvre,), own)

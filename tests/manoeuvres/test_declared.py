@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 import pytest
@@ -22,6 +21,7 @@ from susp_mj.character import Character
 from vehicles import load_vehicle
 from vehicles.mjcf import MODELS, build
 
+from ..builders.manoeuvres import under_another_kind
 from ..builders.runs import Bicycle, compared, driven
 
 GIVEN = {
@@ -30,12 +30,6 @@ GIVEN = {
     "suspension_rig": {"duration": 4.0},
     "acceleration": {"speed": 10.0},
 }
-
-
-def under_another_kind(parent):
-    """A subclass that differs in its kind alone."""
-    own = {"__module__": __name__, "__annotations__": {"kind": Literal["own"]}, "kind": "own"}
-    return type("Own", (parent,), own)
 
 
 def run_of(manoeuvre):
