@@ -1,6 +1,6 @@
-"""Numbers of the kinematics and compliance rig, per axle: slopes in the design position.
+"""Numbers of the kinematics rig, per axle: slopes over travel, roll and steering in the design position.
 
-Over travel they hold within 20 mm of the design position, over forces within half the amplitude of the test. A wheel's
+Over travel they hold within 20 mm of the design position, over angles within half the amplitude of the test. A wheel's
 toe is positive inwards, its camber positive with the top outwards; left and right are averaged as mirror images.
 
 Source: definitions as in ISO 8855:2011; W. Matschinsky, Radführungen der Straßenfahrzeuge.
@@ -114,49 +114,9 @@ def roll_stiffness_rear(run: Run) -> Answer:
 
 def steering_ratio(run: Run) -> Answer:
     """Steering wheel angle per mean steer angle of the front wheels about the centre."""
-    wheels = _mean(run, "front", "steer_angle")
-    found = _fit(run["steering_wheel_angle"], wheels, SHARE / 5 * float(np.abs(run["steering_wheel_angle"]).max()))
+    steering, wheels = run["steering_wheel_angle"], _mean(run, "front", "steer_angle")
+    found = slope_within(steering, wheels, SHARE / 5 * float(np.abs(steering).max()))
     return Answer(None, "the wheels do not turn") if not found else Answer(1 / found)
-
-
-def lateral_force_steer_front(run: Run) -> Answer:
-    """Steer angle of a front wheel per lateral force on it [rad/N], positive: it turns towards where it is pushed."""
-    return _over_force(run, "front", "lateral_force", "steer_angle")
-
-
-def lateral_force_steer_rear(run: Run) -> Answer:
-    """Steer angle of a rear wheel per lateral force on it [rad/N], positive: it turns towards where it is pushed."""
-    return _over_force(run, "rear", "lateral_force", "steer_angle")
-
-
-def lateral_force_camber_front(run: Run) -> Answer:
-    """Camber of a front wheel per lateral force on it [rad/N], positive: it leans out of where it is pushed."""
-    return _over_force(run, "front", "lateral_force", "camber_angle")
-
-
-def lateral_force_camber_rear(run: Run) -> Answer:
-    """Camber of a rear wheel per lateral force on it [rad/N], positive: it leans out of where it is pushed."""
-    return _over_force(run, "rear", "lateral_force", "camber_angle")
-
-
-def longitudinal_force_steer_front(run: Run) -> Answer:
-    """Toe-in of a front wheel per forward force on it [rad/N]."""
-    return _toe_over_force(run, "front")
-
-
-def longitudinal_force_steer_rear(run: Run) -> Answer:
-    """Toe-in of a rear wheel per forward force on it [rad/N]."""
-    return _toe_over_force(run, "rear")
-
-
-def aligning_moment_steer_front(run: Run) -> Answer:
-    """Steer angle of a front wheel per moment about the vertical on it [rad/(N m)]."""
-    return _over_force(run, "front", "aligning_moment", "steer_angle")
-
-
-def aligning_moment_steer_rear(run: Run) -> Answer:
-    """Steer angle of a rear wheel per moment about the vertical on it [rad/(N m)]."""
-    return _over_force(run, "rear", "aligning_moment", "steer_angle")
 
 
 def _mean(run: Run, axle: str, quantity: str) -> np.ndarray:
@@ -164,7 +124,7 @@ def _mean(run: Run, axle: str, quantity: str) -> np.ndarray:
     return (left + right) / 2
 
 
-def _fit(x: np.ndarray, y: np.ndarray, reach: float) -> float | None:
+def slope_within(x: np.ndarray, y: np.ndarray, reach: float) -> float | None:
     """Slope within ±reach of x; None where x does not cover a good part of that."""
     inside = np.abs(x) <= reach
     return slope(x[inside], y[inside]) if reach > 0 and np.sum(inside) > 5 and np.ptp(x[inside]) > reach / 2 else None
@@ -175,18 +135,18 @@ def _over_travel(run: Run, axle: str, quantity: str, *, mirrored: float = 1.0) -
     opposite on the right."""
     signs = (mirrored, 1.0) if mirrored < 0 else (1.0, 1.0)
     slopes = [
-        _fit(run[f"{station}_suspension_deflection"], sign * run[f"{station}_{quantity}"], TRAVEL)
+        slope_within(run[f"{station}_suspension_deflection"], sign * run[f"{station}_{quantity}"], TRAVEL)
         for station, sign in zip(stations_of(axle), signs, strict=True)
     ]
-    return _average(slopes, f"within {1000 * TRAVEL:.0f} mm")
+    return average_of(slopes, f"within {1000 * TRAVEL:.0f} mm")
 
 
 def _roll_centre(run: Run, axle: str) -> Answer:
     outwards = [
-        _fit(run[f"{station}_suspension_deflection"], sign * run[f"{station}_contact_y"], TRAVEL)
+        slope_within(run[f"{station}_suspension_deflection"], sign * run[f"{station}_contact_y"], TRAVEL)
         for station, sign in zip(stations_of(axle), (1.0, -1.0), strict=True)
     ]
-    found = _average(outwards)
+    found = average_of(outwards)
     return found if found.value is None else Answer(found.value * facts(run)[f"track_{axle}"] / 2)
 
 
@@ -197,7 +157,7 @@ def _path_angle(run: Run, axle: str, sign: float) -> Answer:
 
 def _over_roll(run: Run, axle: str, quantity: str) -> Answer:
     roll = run["roll_angle"]
-    found = _fit(roll, _mean(run, axle, quantity), SHARE * float(np.abs(roll).max()))
+    found = slope_within(roll, _mean(run, axle, quantity), SHARE * float(np.abs(roll).max()))
     return Answer(found, "" if found is not None else "does not roll")
 
 
@@ -208,27 +168,12 @@ def _roll_stiffness(run: Run, axle: str) -> Answer:
         for quantity in ("suspension_deflection", "wheel_load")
     )
     angle = (right - left) / track
-    found = _fit(angle, track / 2 * (load_right - load_left), SHARE * float(np.abs(angle).max()))
+    found = slope_within(angle, track / 2 * (load_right - load_left), SHARE * float(np.abs(angle).max()))
     return Answer(found, "" if found is not None else "does not roll")
 
 
-def _over_force(run: Run, axle: str, force: str, quantity: str) -> Answer:
-    slopes = []
-    for station in stations_of(axle):
-        pushed = run[f"{station}_{force}"]
-        slopes.append(_fit(pushed, run[f"{station}_{quantity}"], SHARE * float(np.abs(pushed).max())))
-    return _average(slopes, "opposed" if parameter(run, "opposed", False) else "")
-
-
-def _toe_over_force(run: Run, axle: str) -> Answer:
-    slopes = []
-    for station, inwards in zip(stations_of(axle), (-1.0, 1.0), strict=True):
-        pushed = run[f"{station}_longitudinal_force"]
-        slopes.append(_fit(pushed, inwards * run[f"{station}_steer_angle"], SHARE * float(np.abs(pushed).max())))
-    return _average(slopes, "opposed" if parameter(run, "opposed", False) else "")
-
-
-def _average(slopes: list[float | None], note: str = "") -> Answer:
+def average_of(slopes: list[float | None], note: str = "") -> Answer:
+    """Mean of slopes; no value where one of them could not be fitted."""
     fitted = [each for each in slopes if each is not None]
     if len(fitted) < len(slopes):
         return Answer(None, "does not move far enough")
@@ -241,7 +186,6 @@ def tested(test: str) -> Runs:
 
 
 BUMP, ROLL, STEER = tested("bump"), tested("roll"), tested("steer")
-LATERAL, LONGITUDINAL, ALIGNING = tested("lateral_force"), tested("longitudinal_force"), tested("aligning_moment")
 NUMBERS = (
     Measure(bump_steer_front, "rad/m", BUMP),
     Measure(bump_steer_rear, "rad/m", BUMP),
@@ -260,12 +204,4 @@ NUMBERS = (
     Measure(roll_stiffness_front, "N m/rad", ROLL & known("track_front")),
     Measure(roll_stiffness_rear, "N m/rad", ROLL & known("track_rear")),
     Measure(steering_ratio, "1", STEER),
-    Measure(lateral_force_steer_front, "rad/N", LATERAL),
-    Measure(lateral_force_steer_rear, "rad/N", LATERAL),
-    Measure(lateral_force_camber_front, "rad/N", LATERAL),
-    Measure(lateral_force_camber_rear, "rad/N", LATERAL),
-    Measure(longitudinal_force_steer_front, "rad/N", LONGITUDINAL),
-    Measure(longitudinal_force_steer_rear, "rad/N", LONGITUDINAL),
-    Measure(aligning_moment_steer_front, "rad/(N m)", ALIGNING),
-    Measure(aligning_moment_steer_rear, "rad/(N m)", ALIGNING),
 )

@@ -46,7 +46,7 @@ def _ground_figure(configurations: Sequence[Configuration]) -> Figure:
     _draw_features(panel, configurations[0].run)
     for order, each in enumerate(configurations):
         run = each.run
-        slippery = any(isinstance(each, Patch) for each in features_in(run.meta))
+        slippery = any(isinstance(feature, Patch) for feature in features_in(run.meta))
         beside = corners(run).values() if has_cones(run) else _front_wheels(run) if slippery else ()
         for x, y in beside:
             panel.plot(*thinned_way(x, y), color=colour(order), linewidth=0.6, alpha=0.55)

@@ -13,6 +13,7 @@ from scipy.signal import lsim
 from evaluation.numbers import (
     NUMBERS,
     braking,
+    compliance,
     cornering,
     course,
     kinematics,
@@ -50,7 +51,7 @@ from ..builders.runs import STATIC, Bicycle, compared, driven, made_up
 CAR = Bicycle()
 DRIVING = tuple(
     number
-    for module in (cornering, wheel_lift, transient, sweep, braking, course, travel_left, kinematics)
+    for module in (cornering, wheel_lift, transient, sweep, braking, course, travel_left, kinematics, compliance)
     for number in module.NUMBERS
 )
 SLOW = RampSteer(rate="3 deg/s", duration=45.0, limit="125 deg")
