@@ -6,6 +6,8 @@ The modules have English names. Where the thesis names a manoeuvre in German, a 
 
 from __future__ import annotations
 
+import inspect
+
 from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
 
@@ -78,11 +80,16 @@ def register(manoeuvre: type[Manoeuvre]) -> None:
     """Make a manoeuvre of your own known by its `kind`, in case files and on the command line.
 
     Raises:
-        InputError: it has no kind, or the kind is taken by another.
+        InputError: it has no kind, the kind is taken by another, or it does not say what is done or when it begins.
     """
     kind = manoeuvre.name()
     if not isinstance(kind, str):
         raise InputError(f"{manoeuvre.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")
+    if inspect.isabstract(manoeuvre):
+        missing = ", ".join(sorted(manoeuvre.__abstractmethods__))
+        raise InputError(f"{manoeuvre.__name__} does not define {missing}, which every manoeuvre has")
+    if not hasattr(manoeuvre, manoeuvre.begins) and manoeuvre.begins not in ("start", *manoeuvre.model_fields):
+        raise InputError(f"{manoeuvre.__name__} begins with '{manoeuvre.begins}', which is none of its parameters")
     taken = {each.german for each in MANOEUVRES.values()}
     if kind in taken or MANOEUVRES.get(kind, manoeuvre) is not manoeuvre:
         raise InputError(f"kind '{kind}' of {manoeuvre.__name__} is taken by another manoeuvre")

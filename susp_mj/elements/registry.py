@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+
 from ..errors import CallbackError
 from .aero import AERODYNAMICS, Aerodynamics
 from .bars import AntiRollBar, Overturning
@@ -47,13 +49,16 @@ def register(element: type[Element] | type[Driver]) -> None:
             and `parameters`; or of Driver, which no file chooses and which needs no kind.
 
     Raises:
-        CallbackError: its kind or the number of its law is taken by something else, its law has another role than its
-            family, or calls functions of another module.
+        CallbackError: it leaves out what its base class asks for, its kind or the number of its law is taken by
+            something else, its law has another role than its family, or calls functions of another module.
     """
     kinds = next((kinds for family, kinds in FAMILIES.items() if issubclass(element, family)), None)
     if kinds is None and not issubclass(element, Driver):
         names = ", ".join(family.__name__ for family in FAMILIES)
         raise CallbackError(f"{element.__name__} must derive from {names} or Driver")
+    if inspect.isabstract(element):
+        missing = ", ".join(sorted(element.__abstractmethods__))
+        raise CallbackError(f"{element.__name__} does not define {missing}, which its base class asks for")
     _check_law(element)
     if kinds is not None and issubclass(element, Element):
         kind = element.model_fields["kind"].default

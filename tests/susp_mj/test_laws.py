@@ -29,6 +29,7 @@ from susp_mj.elements import (
     AnyAerodynamics,
     AnyBrakes,
     Brakes,
+    Damper,
     Driver,
     Law,
     LinearAerodynamics,
@@ -233,6 +234,12 @@ def test_a_law_of_the_wrong_role_is_refused():
         def parameters(self) -> tuple[float, ...]:
             return ()
 
+    class Unfinished(Damper):
+        law: ClassVar[Law] = Law("unfinished_of_the_tests", lagging_brake)
+        kind: Literal["unfinished"] = "unfinished"
+
+    with pytest.raises(CallbackError, match="Unfinished does not define branches, which its base class asks for"):
+        register(Unfinished)
     with pytest.raises(CallbackError, match="has role 'brake'; that of Wrong needs role 'force'"):
         register(Wrong)
     with pytest.raises(CallbackError, match="must derive from Spring, Damper, Tyre, ContactTyre, Brakes, Aerodynamics"):
