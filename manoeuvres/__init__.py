@@ -6,8 +6,7 @@ The modules have English names. Where the thesis names a manoeuvre in German, a 
 
 from __future__ import annotations
 
-import inspect
-
+from susp_mj.description import left_out
 from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
 
@@ -85,9 +84,8 @@ def register(manoeuvre: type[Manoeuvre]) -> None:
     kind = manoeuvre.name()
     if not isinstance(kind, str):
         raise InputError(f"{manoeuvre.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")
-    if inspect.isabstract(manoeuvre):
-        missing = ", ".join(sorted(manoeuvre.__abstractmethods__))
-        raise InputError(f"{manoeuvre.__name__} does not define {missing}, which every manoeuvre has")
+    if left_out(manoeuvre):
+        raise InputError(f"{manoeuvre.__name__} does not define {left_out(manoeuvre)}, which every manoeuvre has")
     if not hasattr(manoeuvre, manoeuvre.begins) and manoeuvre.begins not in ("start", *manoeuvre.model_fields):
         raise InputError(f"{manoeuvre.__name__} begins with '{manoeuvre.begins}', which is none of its parameters")
     taken = {each.german for each in MANOEUVRES.values()}

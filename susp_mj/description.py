@@ -32,6 +32,11 @@ class Description(BaseModel):
         return data
 
 
+def left_out(kind: type) -> str:
+    """Names of what a class leaves out that its base class asks for, in a row; empty if it is complete."""
+    return ", ".join(sorted(getattr(kind, "__abstractmethods__", ())))
+
+
 def wrong(message: str, key: str = "") -> PydanticCustomError:
     """Error to raise inside a validator; `key` names the field below the object being validated."""
     return PydanticCustomError("wrong", "{text}", {"text": message, "key": key})

@@ -58,9 +58,8 @@ class Plant:
             spec = mujoco.MjSpec.from_file(str(path))
             _check_partners(spec, str(path))
             signals = len(SIGNALS) if any(numeric.name == CAR_NUMERIC for numeric in spec.numerics) else 0
-            spec.nuserdata = max(
-                spec.nuserdata, USERDATA_HEADER + len(spec.actuators) + signals
-            )  # actuators may have been added by hand
+            # actuators may have been added by hand
+            spec.nuserdata = max(spec.nuserdata, USERDATA_HEADER + len(spec.actuators) + signals)
             check_block(spec, str(path))  # first: compiling runs the car once
             model = spec.compile()
             check_places(spec, model, str(path))

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import inspect
-
+from ..description import left_out
 from ..errors import CallbackError
 from .aero import AERODYNAMICS, Aerodynamics
 from .bars import AntiRollBar, Overturning
@@ -56,9 +55,8 @@ def register(element: type[Element] | type[Driver]) -> None:
     if kinds is None and not issubclass(element, Driver):
         names = ", ".join(family.__name__ for family in FAMILIES)
         raise CallbackError(f"{element.__name__} must derive from {names} or Driver")
-    if inspect.isabstract(element):
-        missing = ", ".join(sorted(element.__abstractmethods__))
-        raise CallbackError(f"{element.__name__} does not define {missing}, which its base class asks for")
+    if left_out(element):
+        raise CallbackError(f"{element.__name__} does not define {left_out(element)}, which its base class asks for")
     _check_law(element)
     if kinds is not None and issubclass(element, Element):
         kind = element.model_fields["kind"].default
