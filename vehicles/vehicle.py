@@ -225,8 +225,8 @@ class Vehicle(Description):
         for name in ("front", "rear"):
             axle: Axle | None = getattr(self, name)
             if axle is not None:
-                damper = axle.damper.model_copy(update={"friction": 0.0})
-                axles[name] = axle.model_copy(update={"friction": None, "damper": damper})
+                update = {"friction": None, "damper": axle.damper.without_friction()}
+                axles[name] = axle.model_copy(update=update)
         return self.model_copy(update=axles)
 
     def cg_height(self, load: str) -> float | None:

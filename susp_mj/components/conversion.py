@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..description import validate
-from ..elements import Damper, Spring, TableDamper, TableSpring
+from ..elements import Damper, HydraulicDamper, Spring, TableDamper, TableSpring
 from ..elements.element import FloatArray
 from ..errors import InputError
 from .motion_ratio import MotionRatio
@@ -70,10 +70,14 @@ def damper_at_wheel(damper: Damper, ratio: MotionRatio, travel: float = 0.0) -> 
 
 def _damper(damper: Damper, i: float) -> TableDamper:
     (v_c, f_c), (v_r, f_r) = damper.branches()
+    if f_c[0] != 0.0:
+        raise InputError(f"pushes with {f_c[0]:g} N at rest; only the spring may carry the body", key="damper")
     speed, force = np.concatenate([-v_r[:0:-1], v_c[1:]]), np.concatenate([-f_r[:0:-1], f_c[1:]])
-    fields = {"speed": (speed * i).tolist(), "force": (force / i).tolist(), "friction": damper.friction / i}
-    if damper.mount is not None:
-        fields["mount"] = {"rate": damper.mount.rate / i**2}
+    fields = {"speed": (speed * i).tolist(), "force": (force / i).tolist()}
+    if isinstance(damper, HydraulicDamper):
+        fields["friction"] = damper.friction / i
+        if damper.mount is not None:
+            fields["mount"] = {"rate": damper.mount.rate / i**2}
     return validate(TableDamper, fields, key="damper")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from .aero import AERODYNAMICS, AIR, Aerodynamics, AnyAerodynamics, LinearAerodynamics
 from .bars import AntiRollBar, Overturning
 from .brakes import BRAKE, BRAKES, AnyBrakes, Brakes, ProportionalBrakes
-from .dampers import DAMPERS, AnyDamper, Damper, TableDamper, ZonedDamper
+from .dampers import DAMPERS, AnyDamper, Damper, HydraulicDamper, TableDamper, ZonedDamper
 from .driver import DRIVER, Driver, Path, PreviewDriver
 from .element import Element, ForceElement
 from .friction import LinkageFriction
@@ -64,6 +64,7 @@ __all__ = [
     "Driver",
     "Element",
     "ForceElement",
+    "HydraulicDamper",
     "Kinematics",
     "Law",
     "LinearAerodynamics",

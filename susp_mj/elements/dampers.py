@@ -60,6 +60,10 @@ def mounted_rod_speed(deflection: float, speed: float, state: float, p: Paramete
     return hydraulic_speed(excess if force > 0.0 else -excess, p)
 
 
+LARGEST_SPEED = 3.0
+"""Up to here a law of one's own is sampled [m/s]; faster no wheel moves against its body."""
+Branches = tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
+
 DIRECT_DAMPER = Law("direct_damper", direct_force)
 MOUNTED_DAMPER = Law("mounted_damper", mounted_force, mounted_rod_speed)
 
@@ -75,7 +79,33 @@ class Mount(Description):
 
 
 class Damper(ForceElement):
-    """A hydraulic damper with rod friction, with or without a rubber mount in series.
+    """A damper effective at the wheel, with a law of its own; piecewise straight ones are `HydraulicDamper`."""
+
+    owed_with_state: ClassVar[tuple[str, ...]] = ("force_at", "time_constant")
+
+    kind: str
+
+    def force_at(self, speed: ArrayLike) -> FloatArray:
+        """Force [N] in steady motion at speed [m/s]."""
+        return self.evaluate(speed=speed)
+
+    def branches(self) -> Branches:
+        """Speeds [m/s] and forces [N] outwards from rest, both positive: compression, then rebound; the law,
+        sampled."""
+        speed = np.concatenate([[0.0], np.geomspace(1e-4, LARGEST_SPEED, 80)])
+        return (speed, self.force_at(speed)), (speed, -self.force_at(-speed))
+
+    def slopes(self) -> FloatArray:
+        """Slopes dF/dv [N s/m] of the characteristic's pieces, compression first."""
+        return np.concatenate([np.diff(force) / np.diff(speed) for speed, force in self.branches()])
+
+    def without_friction(self) -> Damper:
+        """The same damper without what acts like Coulomb friction, for linearisation."""
+        return self
+
+
+class HydraulicDamper(Damper):
+    """A piecewise straight characteristic with rod friction, with or without a rubber mount in series.
 
     Without a mount ``F = F_d(v) + F_f (2/pi) arctan(201.7 v)``. With a mount of rate k1 the rod deflection y is a
     state: ``F = k1 (x - y)``; ``dy/dt = 0`` while ``|F| <= F_f``, else ``F_d^-1(|F| - F_f) sign(F)``: the inverse
@@ -88,12 +118,11 @@ class Damper(ForceElement):
 
     law: ClassVar[Law] = DIRECT_DAMPER
 
-    kind: str
     friction: NonNegativeForce = 0.0
     mount: Mount | None = None
 
     @abstractmethod
-    def branches(self) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
+    def branches(self) -> Branches:
         """Speeds [m/s] and forces [N] from the origin outwards, both positive: compression, then rebound."""
 
     @property
@@ -119,16 +148,15 @@ class Damper(ForceElement):
         p = self.parameters()
         return np.vectorize(lambda f: hydraulic_speed(f, p), otypes=[float])(force)
 
-    def least_slope(self) -> float:
-        """Smallest dF/dv [N s/m] of the characteristic."""
-        return min(float((np.diff(force) / np.diff(speed)).min()) for speed, force in self.branches())
-
     def time_constant(self) -> float | None:
         """Fastest time constant [s] of mount and damper in series, ``min(dF_d/dv) / k1``; None without a mount."""
-        return self.least_slope() / self.mount.rate if self.mount else None
+        return float(self.slopes().min()) / self.mount.rate if self.mount else None
+
+    def without_friction(self) -> HydraulicDamper:
+        return self.model_copy(update={"friction": 0.0})
 
 
-class ZonedDamper(Damper):
+class ZonedDamper(HydraulicDamper):
     """Average rate per velocity zone and compression:rebound ratio (thesis section 4.4.2).
 
     In each zone ``D_c = 2 D c/(c+r)`` and ``D_r = 2 D r/(c+r)``; the characteristic is the continuous, piecewise
@@ -169,7 +197,7 @@ class ZonedDamper(Damper):
             raise wrong("zone limits must increase", "limits")
         return self
 
-    def branches(self) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
+    def branches(self) -> Branches:
         limits = self.limits or (1.0,)
         speed = np.array([0.0, *limits, 2 * limits[-1]])[: len(self.rates) + 1]
         average = np.concatenate([[0.0], np.cumsum(np.array(self.rates) * np.diff(speed))])
@@ -178,7 +206,7 @@ class ZonedDamper(Damper):
         return (speed, average * share * compression), (speed, average * share * rebound)
 
 
-class TableDamper(Damper):
+class TableDamper(HydraulicDamper):
     """A measured characteristic: straight lines through the points and the origin, the end slopes continued.
 
     Attributes:
@@ -211,7 +239,7 @@ class TableDamper(Damper):
                 )
         return self
 
-    def branches(self) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
+    def branches(self) -> Branches:
         speed, force = np.array(self.speed), np.array(self.force)
 
         def outwards(sign: float) -> tuple[FloatArray, FloatArray]:

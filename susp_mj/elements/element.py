@@ -43,12 +43,18 @@ class ForceElement(Element):
     """An element that pushes two points apart."""
 
     role: ClassVar[Role] = FORCE
+    owed_with_state: ClassVar[tuple[str, ...]] = ("time_constant",)
+    """Methods that a kind whose law has an inner state must define itself."""
 
     def evaluate(self, deflection: ArrayLike = 0.0, speed: ArrayLike = 0.0, state: ArrayLike = 0.0) -> FloatArray:
         """Force [N] of the law, positive in compression; arguments broadcast as in numpy."""
         p = self.parameters()
         force = np.vectorize(lambda x, v, y: self.active_law.function(x, v, y, p), otypes=[float])
         return force(np.asarray(deflection, float), np.asarray(speed, float), np.asarray(state, float))
+
+    def time_constant(self) -> float | None:
+        """Fastest time constant [s] of the inner state, which the step must resolve; None without one."""
+        return None
 
 
 Kind = TypeVar("Kind", bound=Description)

@@ -7,9 +7,9 @@ from ..errors import CallbackError
 from .aero import AERODYNAMICS, Aerodynamics
 from .bars import AntiRollBar, Overturning
 from .brakes import BRAKES, Brakes
-from .dampers import DAMPERS, DIRECT_DAMPER, MOUNTED_DAMPER, Damper
+from .dampers import DAMPERS, DIRECT_DAMPER, MOUNTED_DAMPER, Damper, HydraulicDamper
 from .driver import Driver, PreviewDriver
-from .element import Element
+from .element import Element, ForceElement
 from .friction import LinkageFriction
 from .law import Law, helpers
 from .spring_damper import SpringDamper
@@ -49,7 +49,8 @@ def register(element: type[Element] | type[Driver]) -> None:
 
     Raises:
         CallbackError: it leaves out what its base class asks for, its kind or the number of its law is taken by
-            something else, its law has another role than its family, or calls functions of another module.
+            something else, its law has another role than its family, calls functions of another module, or has an inner
+            state that the element says too little of.
     """
     kinds = next((kinds for family, kinds in FAMILIES.items() if issubclass(element, family)), None)
     if kinds is None and not issubclass(element, Driver):
@@ -78,3 +79,15 @@ def _check_law(element: type[Element] | type[Driver]) -> None:
         raise CallbackError(f"law '{law.name}' has the same number as '{LAWS[law.number].name}'; rename it")
     for function in law.functions():
         helpers(function)
+    if issubclass(element, HydraulicDamper) and law is not DIRECT_DAMPER:
+        raise CallbackError(
+            f"{element.__name__} has a law of its own, '{law.name}'; then it derives from Damper, without the friction "
+            "and mount of HydraulicDamper"
+        )
+    if issubclass(element, ForceElement) and law.state_rate is not None:
+        family = next(family for family in (*FAMILIES, ForceElement) if issubclass(element, family))
+        owed = [name for name in element.owed_with_state if getattr(element, name) is getattr(family, name)]
+        if owed:
+            raise CallbackError(
+                f"law '{law.name}' has an inner state; {element.__name__} must define {', '.join(owed)} for it"
+            )

@@ -87,8 +87,8 @@ class Spring(ForceElement):
         return type(self).model_validate({**self.model_dump(), "preload": force})
 
     def force_at(self, deflection: ArrayLike) -> FloatArray:
-        """Spring force [N] at deflection [m], without the stops."""
-        return self.evaluate(deflection)
+        """Spring force [N] at rest at deflection [m], without the stops."""
+        return self.evaluate(deflection, state=deflection)
 
     def rate_at(self, deflection: ArrayLike) -> FloatArray:
         """Local rate dF/dx [N/m], by central difference over 2 µm, one-sided at the stops."""

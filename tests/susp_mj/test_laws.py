@@ -29,8 +29,8 @@ from susp_mj.elements import (
     AnyAerodynamics,
     AnyBrakes,
     Brakes,
-    Damper,
     Driver,
+    HydraulicDamper,
     Law,
     LinearAerodynamics,
     Path,
@@ -234,7 +234,7 @@ def test_a_law_of_the_wrong_role_is_refused():
         def parameters(self) -> tuple[float, ...]:
             return ()
 
-    class Unfinished(Damper):
+    class Unfinished(HydraulicDamper):
         law: ClassVar[Law] = Law("unfinished_of_the_tests", lagging_brake)
         kind: Literal["unfinished"] = "unfinished"
 

@@ -10,7 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from susp_mj.elements import AntiRollBar, ForceElement
+from susp_mj.elements import AntiRollBar, ForceElement, HydraulicDamper
 from susp_mj.names import channel_name
 
 from ..complete import LoadedAxle
@@ -111,14 +111,13 @@ def note_stiffness(builder: ModelBuilder, loaded: LoadedAxle, mass: float, *, ty
     if axle.friction is not None:
         force = axle.friction.force
         builder.resolve(f"{where}.friction.force", force, "N", mass / (arctan_slope * force))
-    if axle.damper.mount is None:
-        slopes = [np.diff(force) / np.diff(speed) for speed, force in axle.damper.branches()]
-        steepest = float(max(each.max() for each in slopes))
-        builder.resolve(f"{where}.damper", steepest, "N s/m", mass / steepest)
-        if axle.damper.friction > 0:
-            builder.resolve(
-                f"{where}.damper.friction", axle.damper.friction, "N", mass / (arctan_slope * axle.damper.friction)
-            )
+    damper = axle.damper
+    if damper.time_constant() is None:
+        steepest = float(damper.slopes().max())
+        if steepest > 0:
+            builder.resolve(f"{where}.damper", steepest, "N s/m", mass / steepest)
+        if isinstance(damper, HydraulicDamper) and damper.friction > 0:
+            builder.resolve(f"{where}.damper.friction", damper.friction, "N", mass / (arctan_slope * damper.friction))
     stops = axle.spring.stops
     travel = np.linspace(stops.rebound, stops.compression, 101)
     stiffness = {"spring": float(np.abs(axle.spring.rate_at(travel)).max()), "spring.stops.rate": stops.rate}

@@ -14,7 +14,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from susp_mj.elements import GRAVITY, Damper, ForceElement
+from susp_mj.elements import GRAVITY, ForceElement, HydraulicDamper
 from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
 from susp_mj.handling.block import CAR_NUMERIC, SIGNALS
 from susp_mj.meaning import Input, Meaning, Output, TimeConstant, Travel
@@ -211,10 +211,11 @@ class ModelBuilder:
                 self.outputs[i] = Output(quantity, station, (*output.terms, *terms))
 
     def travel(self, station: str, axle: LoadedAxle) -> None:
-        """Declare the travel of a station's suspension and the time constant of its damper."""
+        """Declare the travel of a station's suspension and the time constants of its spring and damper."""
         stops = axle.values.spring.stops
         self.travels.append(Travel(station, stops.rebound, stops.compression, axle.name))
-        self._note_time_constant(axle.values.damper, axle.name)
+        for part in ("spring", "damper"):
+            self._note_time_constant(getattr(axle.values, part), f"{axle.name}.{part}")
 
     def resolve(self, key: str, value: float, unit: str, seconds: float, power: float = 1.0) -> None:
         """Remember a time constant that the step must resolve: a rate acting on a mass, or a stiffness (power 2)."""
@@ -222,13 +223,15 @@ class ModelBuilder:
         if constant not in self.time_constants:
             self.time_constants.append(constant)
 
-    def _note_time_constant(self, damper: Damper, axle_name: str) -> None:
-        """Remember the damper's time constant, which limits the step."""
-        seconds = damper.time_constant()
-        if seconds is not None and damper.mount is not None:
-            constant = TimeConstant(seconds, damper.mount.rate, "N/m", f"{axle_name}.damper.mount.rate")
-            if constant not in self.time_constants:
-                self.time_constants.append(constant)
+    def _note_time_constant(self, element: ForceElement, key: str) -> None:
+        """Remember the time constant of an element's inner state, which limits the step."""
+        seconds = element.time_constant()
+        if seconds is None:
+            return
+        if isinstance(element, HydraulicDamper) and element.mount is not None:
+            self.resolve(f"{key}.mount.rate", element.mount.rate, "N/m", seconds)
+        else:
+            self.resolve(key, 1.0 / seconds, "1/s", seconds)
 
     def finish(self, **meaning: Any) -> tuple[mujoco.MjSpec, Meaning]:
         """Write the user parameters and state what the numbers mean."""
