@@ -201,10 +201,14 @@ def main() -> None:
 
 
 def _drive(manoeuvre: str, arguments: Sequence[str]) -> None:
+    from .blame import on_command_line
     from .script import case_from_arguments
 
-    asked = case_from_arguments(manoeuvre, arguments)
-    _run(asked.case, asked.path, asked.out, video=asked.video, workers=asked.workers)
+    try:
+        asked = case_from_arguments(manoeuvre, arguments)
+        _run(asked.case, asked.path, asked.out, video=asked.video, workers=asked.workers)
+    except InputError as error:
+        raise on_command_line(error) from None
 
 
 def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool = False, workers: int | None = None) -> None:

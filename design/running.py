@@ -28,6 +28,7 @@ from vehicles.mjcf import HANDLING, build
 from vehicles.reading import load_vehicle
 from vehicles.vehicle import Vehicle
 
+from .blame import in_case
 from .case import Case, Setting, read_manoeuvre, usual_load
 
 Report = Callable[[str, float], None]
@@ -157,20 +158,21 @@ def prepare(job: Job) -> Prepared:
     Raises:
         InputError: naming file, key and value.
     """
+    try:
+        return _built(job)
+    except InputError as error:
+        raise _in_case(error, job) from None
+
+
+def _built(job: Job) -> Prepared:
     setting, name = job.setting, job.setting.vehicle
     load_plugins(job.plugins, job.path)
     manoeuvre = read_manoeuvre(job.manoeuvre, job.path.name)
-    try:
-        vehicle = load_vehicle(
-            job.path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set
-        )
-        load = str(setting.load or usual_load(manoeuvre, vehicle.loads))
-        plant = build(vehicle, job.model, load, setting.axle, manoeuvre.rig)
-    except InputError as error:
-        if error.source:
-            raise
-        raise error.within(key=f"configuration.{job.place}", source=job.path.name) from None
-    return Prepared(job, vehicle, manoeuvre, plant)
+    vehicle = load_vehicle(
+        job.path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set
+    )
+    load = str(setting.load or usual_load(manoeuvre, vehicle.loads))
+    return Prepared(job, vehicle, manoeuvre, build(vehicle, job.model, load, setting.axle, manoeuvre.rig))
 
 
 def simulated(prepared: Prepared, progress: Progress = lambda done: None) -> tuple[Prepared, Run | SimulationError]:
@@ -185,8 +187,37 @@ def simulated(prepared: Prepared, progress: Progress = lambda done: None) -> tup
     except SimulationError as error:
         return prepared, error
     except InputError as error:
-        raise _of_manoeuvre(error, manoeuvre).within(source=job.path.name) from None
+        raise _in_case(_of_manoeuvre(error, manoeuvre).within(source=job.path.name), job) from None
     return prepared, run
+
+
+def _in_case(error: InputError, job: Job) -> InputError:
+    """The error of a job as its case file sees it."""
+
+    def attempt(overrides: Mapping[str, Any]) -> InputError | None:
+        return _refusal(replace(job, setting=job.setting.model_copy(update={"set": overrides})))
+
+    return in_case(error, job.setting.set, attempt, key=f"configuration.{job.place}", source=job.path.name)
+
+
+class _Begun(Exception):
+    """Raised when a run has begun whose result nobody needs."""
+
+
+def _refusal(job: Job) -> InputError | None:
+    """Why a job does not begin to run; None if it does."""
+
+    def begun(done: float) -> None:
+        raise _Begun
+
+    try:
+        prepared = _built(job)
+        simulate(prepared.plant, prepared.manoeuvre, step=job.step, record_every=job.record_every, progress=begun)
+    except InputError as error:
+        return error
+    except (_Begun, SimulationError):
+        return None
+    return None
 
 
 def outcome(of: tuple[Prepared, Run | SimulationError]) -> Outcome:

@@ -18,6 +18,8 @@ from .vehicle import Vehicle
 FOLDER = Path(__file__).parent
 TYRES = FOLDER / "tyres"
 """Where the tyre property files that ship lie."""
+WITH_OVERRIDES = " with overrides"
+"""After the name of a file, the source of a car that is not quite what the file says."""
 
 
 def available_vehicles() -> list[str]:
@@ -80,16 +82,17 @@ class VehicleFile:
     def vehicle(self, characteristics: str | None = None, overrides: Mapping[str, Any] | None = None) -> Vehicle:
         """The car with one set of characteristics; arguments and errors as for `load_vehicle`."""
         chosen = self._chosen(characteristics)
+        source = self.path.name + (WITH_OVERRIDES if overrides else "")
         tables = deepcopy({**self.tables})
         _merge(tables, deepcopy({key: value for key, value in self.sets.get(chosen, {}).items() if key != "title"}))
         for key, value in (overrides or {}).items():
-            self._override(tables, key, value)
+            _override(tables, key, value, source)
         for reserved in ("name", "source"):
             if reserved in tables:
-                raise InputError("unknown key; a car is named by its file", key=reserved, source=self.path.name)
-        _find_tyres(tables, self.path)
-        here = {"name": self.name, "source": self.path.name, "characteristics": chosen}
-        return validate(Vehicle, tables | here, source=self.path.name)
+                raise InputError("unknown key; a car is named by its file", key=reserved, source=source)
+        _find_tyres(tables, self.path, source)
+        here = {"name": self.name, "source": source, "characteristics": chosen}
+        return validate(Vehicle, tables | here, source=source)
 
     def _chosen(self, asked: str | None) -> str:
         """Name of the set asked for, or of the default one; empty if the file has one car only."""
@@ -100,15 +103,6 @@ class VehicleFile:
             known = choices(self.sets or ["none"], chosen)
             raise InputError(f"{self.path.name} has no set '{chosen}'; {known}", key="characteristics")
         return chosen
-
-    def _override(self, tables: dict[str, Any], key: str, value: Any) -> None:
-        if key.split(".", maxsplit=1)[0] in ("characteristics", "default", ""):
-            raise InputError(
-                "cannot be overridden; write the path as it stands below a set, like rear.damper.ratio",
-                key=key,
-                source=self.path.name,
-            )
-        _set_by_path(tables, key, value, source=self.path.name)
 
 
 def load_vehicle(
@@ -146,14 +140,20 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError(f"is not TOML: {error}", source=path.name) from None
 
 
-def _set_by_path(data: dict[str, Any], path: str, value: Any, *, source: str) -> None:
+def _override(tables: dict[str, Any], path: str, value: Any, source: str) -> None:
     """Put `value` at a dotted path into nested tables, making tables on the way; a number addresses a list's item.
 
     Raises:
-        InputError: the path runs through something that is not a table.
+        InputError: the path is none below a set of characteristics, or runs through something that is not a table.
     """
+    if path.split(".", maxsplit=1)[0] in ("characteristics", "default", ""):
+        raise InputError(
+            "cannot be overridden; write the path as it stands below a set, like rear.damper.ratio",
+            key=path,
+            source=source,
+        )
     *parents, last = path.split(".")
-    here: Any = data
+    here: Any = tables
     for depth, part in enumerate(parents):
         if isinstance(here, dict):
             here = here.setdefault(part, {})
@@ -179,7 +179,7 @@ def _find(name: str | Path) -> Path:
     if text.endswith(".toml"):
         path = Path(text)
         if not _is_file(path):
-            raise InputError("no such file", source=text[:100])
+            raise InputError(f"'{text[:100]}': no such file", key="vehicle")
         return path
     if text not in available_vehicles():
         raise InputError(
@@ -188,7 +188,7 @@ def _find(name: str | Path) -> Path:
     return FOLDER / f"{text}.toml"
 
 
-def _find_tyres(data: dict[str, Any], path: Path) -> None:
+def _find_tyres(data: dict[str, Any], path: Path, source: str) -> None:
     """Put the path of each tyre property file in place of its name: beside the vehicle file, or one that ships."""
     for axle in ("front", "rear"):
         tables = data.get(axle)
@@ -202,7 +202,7 @@ def _find_tyres(data: dict[str, Any], path: Path) -> None:
             raise InputError(
                 f"no file '{name}' beside the vehicle file; {shipped}, or give the path of a .tir file",
                 key=f"{axle}.handling_tyre.file",
-                source=path.name,
+                source=source,
             )
         tables["handling_tyre"] = {**tyre, "file": str(found)}
 

@@ -130,7 +130,7 @@ class Vehicle(Description):
     """A car, one set of characteristics chosen.
 
     Attributes:
-        name: the file's name without ending; `source` is the file itself.
+        name: the file's name without ending; `source` is the file itself, and says so if it is overridden.
         title: one line for reports.
         characteristics: name of the chosen set, empty if the file has none.
         wheelbase: [m], needed by models with two axles.

@@ -112,7 +112,11 @@ def test_a_vehicle_file_beside_the_case_is_found(tmp_path):
             'vehicle = "chapter4"',
             ["mine.toml: configuration.0.vehicle: ", "chapter4", "chapter3"],
         ),
-        ('vehicle = "chapter3"', 'vehicle = "none.toml"', ["none.toml: no such file"]),
+        (
+            'vehicle = "chapter3"',
+            'vehicle = "none.toml"',
+            ["mine.toml: configuration.0.vehicle: ", "none.toml': no such file"],
+        ),
         (
             'characteristics = "linear"',
             'characteristics = "linaer"',
@@ -128,15 +132,26 @@ def test_a_vehicle_file_beside_the_case_is_found(tmp_path):
         (
             'name = "b"',
             'name = "b"\nload = "heavy"',
-            ["mine.toml: configuration.1.load: chapter3.toml has no load case 'heavy'; choose ko"],
+            ["mine.toml: configuration.1.load: chapter3.toml with overrides has no load case 'heavy'; choose ko"],
         ),
         (
             'name = "b"',
             'name = "b"\naxle = "front"',
-            ["mine.toml: configuration.1.axle: chapter3.toml has no axle 'front'; choose rear"],
+            ["mine.toml: configuration.1.axle: chapter3.toml with overrides has no axle 'front'; choose rear"],
         ),
-        ('["1200 N s/m"]', '["-5 N s/m"]', ["chapter3.toml: rear.damper.rates.0: ", "-5", "greater than 0"]),
-        ('"rear.damper.rates"', '"rear.dampr.rates"', ["chapter3.toml: rear.dampr: ", "did you mean 'damper'"]),
+        (
+            '["1200 N s/m"]',
+            '["-5 N s/m"]',
+            ["mine.toml: configuration.1.set.rear.damper.rates.0: ", "-5", "greater than 0"],
+        ),
+        (
+            '"rear.damper.rates"',
+            '"rear.dampr.rates"',
+            [
+                "mine.toml: configuration.1.set.rear.dampr.rates: laid over chapter3.toml: rear.dampr: ",
+                "did you mean 'damper'",
+            ],
+        ),
         ('max = "5 m/s²"', 'max = "5 m"', ["mine.toml: criteria.body_acceleration_max.max: ", "'5 m'", "m/s²"]),
         ('max = "5 m/s²"', 'max = "5 m/s²", min = 9', ["mine.toml: criteria.body_acceleration_max: ", "9", "5"]),
         (

@@ -210,7 +210,7 @@ def test_a_manoeuvre_script_refuses_bad_parameters_in_one_line(tmp_path):
     result = script("bump", "--height", "8 kg", cwd=tmp_path)
     assert result.returncode == 2
     assert len(result.stderr.strip().splitlines()) == 1
-    assert "manoeuvre.height: '8 kg'" in result.stderr
+    assert "error: --height: '8 kg'" in result.stderr
 
 
 def test_doctor_reports_each_need():

@@ -165,7 +165,7 @@ def test_an_unknown_tyre_file_is_one_line():
         load_vehicle("s_class", overrides={"rear.handling_tyre.file": "pac2002_24540R18.tir"})
     shipped = ", ".join(sorted(path.name for path in (FOLDER / "tyres").glob("*.tir")))
     assert str(caught.value) == (
-        "s_class.toml: rear.handling_tyre.file: no file 'pac2002_24540R18.tir' beside the vehicle file; "
+        "s_class.toml with overrides: rear.handling_tyre.file: no file 'pac2002_24540R18.tir' beside the vehicle file; "
         f"did you mean 'pac2002_245_40R18.tir'? choose {shipped}, or give the path of a .tir file"
     )
 
@@ -238,7 +238,7 @@ def test_an_override_that_leads_nowhere(overrides, key):
     with pytest.raises(InputError) as caught:
         load_vehicle("chapter3", "linear", overrides)
     assert caught.value.key == key
-    assert caught.value.source == "chapter3.toml"
+    assert caught.value.source == "chapter3.toml with overrides"
 
 
 # ---- mistakes
