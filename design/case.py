@@ -17,7 +17,7 @@ from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.plugins import load_plugins
 from susp_mj.units import Quantity, to_si
-from vehicles.mjcf import MODELS
+from vehicles.models import MODELS
 from vehicles.reading import read_toml
 from vehicles.vehicle import DESIGN_LOAD
 
@@ -102,7 +102,7 @@ class Case(Description):
 
     Attributes:
         title, description: for the report.
-        model: topology, a key of `vehicles.mjcf.MODELS`.
+        model: topology, a key of `vehicles.models.MODELS`.
         manoeuvre: a table with its `kind` and parameters.
         configuration: what is compared, in order.
         numbers: evaluation numbers; all that apply if empty.

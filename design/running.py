@@ -24,7 +24,8 @@ from susp_mj.plugins import load_plugins
 from susp_mj.recording import Diverged
 from susp_mj.run import Run
 from susp_mj.simulation import MOST_STEPS, STEP, simulate
-from vehicles.mjcf import HANDLING, build
+from vehicles.mjcf import build
+from vehicles.models import HANDLING
 from vehicles.reading import load_vehicle
 from vehicles.vehicle import Vehicle
 
@@ -43,7 +44,7 @@ class Job:
 
     Attributes:
         setting: car, set of characteristics, overrides, one load case, axle.
-        model: topology, a key of `vehicles.mjcf.MODELS`.
+        model: topology, a key of `vehicles.models.MODELS`.
         manoeuvre: table of a manoeuvre.
         numbers: names of the evaluation numbers; all if empty.
         step, record_every: as those of a `Case`.

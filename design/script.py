@@ -15,7 +15,7 @@ from susp_mj.errors import InputError
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.plugins import load_installed, load_plugin
 from susp_mj.units import unit_of
-from vehicles.mjcf import MODELS
+from vehicles.models import MODELS
 from vehicles.reading import VehicleFile
 from vehicles.vehicle import DESIGN_LOAD
 

@@ -167,7 +167,7 @@ def print_lists() -> None:
     from evaluation.numbers import NUMBERS
     from manoeuvres import MANOEUVRES
     from susp_mj.elements import DAMPERS, SPRINGS, TYRES
-    from vehicles.mjcf import MODELS
+    from vehicles.models import MODELS
     from vehicles.reading import VehicleFile, available_vehicles
 
     from .case import available_cases
@@ -188,7 +188,7 @@ def print_lists() -> None:
 def _print_matrix() -> None:
     """Which manoeuvre runs on which model: it drives inputs that the model has, on the rig that it needs."""
     from manoeuvres import MANOEUVRES
-    from vehicles.mjcf import MODELS
+    from vehicles.models import MODELS
 
     table = Table(title="Manoeuvre x model", box=SIMPLE_HEAD, title_justify="left", title_style="bold")
     table.add_column("")

@@ -16,7 +16,7 @@ Described = TypeVar("Described", bound="Description")
 class Description(BaseModel):
     """A frozen, validated value; an unknown key is an error that lists the known ones."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
     @model_validator(mode="before")
     @classmethod

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .building import MODELS, build, specification, write
-from .handling import HANDLING, K_AND_C
-from .topology import OSCILLATION, Topology
+from ..models import HANDLING, MODELS, OSCILLATION, Topology
+from .building import build, specification, write
+from .handling import K_AND_C
 
 __all__ = ["HANDLING", "K_AND_C", "MODELS", "OSCILLATION", "Topology", "build", "specification", "write"]

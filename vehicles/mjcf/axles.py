@@ -14,8 +14,8 @@ from susp_mj.elements import AntiRollBar, ForceElement, HydraulicDamper
 from susp_mj.names import channel_name
 
 from ..complete import LoadedAxle
+from ..models import Topology
 from .parts import POINT_MASS, Form, ModelBuilder, Partner
-from .topology import Topology
 
 BODY_HEIGHT = 0.65
 """Height of the drawn body above the ground [m]."""

@@ -8,9 +8,10 @@ from collections.abc import Sequence
 from susp_mj.elements import GRAVITY, Overturning, SpringDamper
 from susp_mj.errors import InputError
 
+from ..models import Topology
 from .axles import Corner, height_at
+from .mass import Mass
 from .parts import Form, ModelBuilder
-from .topology import Mass, Topology
 
 _RIG_FREQUENCY = 2000.0  # rad/s; stiff against every suspension, soft enough for a step of 1 ms
 

@@ -10,16 +10,10 @@ from susp_mj.errors import InputError, choices
 from susp_mj.meaning import Meaning
 from susp_mj.plant import Plant, write_mjcf
 
+from ..models import HANDLING, MODELS
 from ..vehicle import DESIGN_LOAD, Vehicle
-from .handling import HANDLING, handling_specification
+from .handling import handling_specification
 from .oscillation import oscillation_specification
-from .topology import OSCILLATION
-
-MODELS: dict[str, str] = {
-    **{name: topology.title for name, topology in OSCILLATION.items()},
-    HANDLING: "3D car that drives: look-up suspension, tyres with slip, steering, power train, brakes, air",
-}
-"""Names of the models, and what they are."""
 
 
 def build(

@@ -29,12 +29,12 @@ from susp_mj.meaning import Meaning
 from susp_mj.names import CORNERS, QUANTITIES
 
 from ..complete import CompleteAxle, CompleteCar
+from ..models import HANDLING
 from ..vehicle import Vehicle
 from .axles import Corner, add_suspension, note_stiffness
 from .handling_numbers import RIG_FORCES, Wheel, block
 from .parts import POINT_MASS, Form, ModelBuilder
 
-HANDLING = "handling"
 K_AND_C = "k_and_c"
 _STEERING = {"steering_wheel": ("steering_wheel_angle", 0)}
 _DRIVING = {

@@ -15,11 +15,12 @@ from susp_mj.meaning import Meaning
 from susp_mj.names import AXLES
 
 from ..complete import LoadedCar
+from ..models import OSCILLATION, Topology
 from ..vehicle import DESIGN_LOAD, Vehicle
 from .axles import BODY_HEIGHT, Corner, add_axle, note_stiffness
 from .body_forces import add_lateral, add_longitudinal, add_rig, add_seat
+from .mass import Mass
 from .parts import POINT_MASS, Form, ModelBuilder
-from .topology import OSCILLATION, Mass, Topology
 
 _FREEDOMS = {
     "heave": ("slide", [0.0, 0.0, 1.0]),
