@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, Field, model_validator
 
 from evaluation.animation.cameras import CAMERAS
-from evaluation.animation.style import LAYOUTS, QUALITIES
+from evaluation.animation.style import LAYOUTS, QUALITIES, Style
 from evaluation.numbers import NUMBERS, Criterion
 from manoeuvres import MANOEUVRES, find_manoeuvre
 from susp_mj.description import Description, one_of, validate, wrong
@@ -17,7 +17,7 @@ from susp_mj.errors import InputError, choices
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.plugins import load_plugins
 from susp_mj.units import Quantity, to_si
-from vehicles.models import MODELS
+from vehicles.models import HANDLING, MODELS
 from vehicles.reading import read_toml
 from vehicles.vehicle import DESIGN_LOAD
 
@@ -110,7 +110,7 @@ class Case(Description):
         step: integration step [s]; by default 1 ms or what the dampers' mounts need.
         record_every: keep every n-th step; by default one a millisecond.
         film: how a video is drawn.
-        plugins: Python files that bring elements, manoeuvres or numbers; relative to the case file.
+        plugins: Python files that bring elements, manoeuvres, numbers or cameras; relative to the case file.
     """
 
     title: str
@@ -134,6 +134,10 @@ class Case(Description):
                 if name not in NUMBERS:
                     raise wrong(f"'{name}' unknown; {choices(NUMBERS, name)}", key)
         self.bands()
+        try:
+            Style(self.film.camera, self.film.layout).suits(self.model == HANDLING, len(self.settings))
+        except InputError as error:
+            raise wrong(error.message, f"film.{error.key}") from None
         labels = [each.name for _, each in self.settings]
         for i, label in enumerate(labels):
             taken = {file_name(other).casefold(): other for other in labels[:i]}.get(file_name(label).casefold())
@@ -181,7 +185,7 @@ def with_film(case: Case, camera: str | None, *, ghost: bool, fine: bool) -> Cas
         case.film.model_dump() | {name: value for name, value in asked.items() if value is not None},
         source="video",
     )
-    return case.model_copy(update={"film": film})
+    return validate(Case, dict(case) | {"film": film}, source="video")
 
 
 def read_manoeuvre(table: Mapping[str, Any], source: str = "") -> Manoeuvre:

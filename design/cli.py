@@ -16,6 +16,7 @@ import typer
 from evaluation.animation.cameras import offered
 from susp_mj.errors import InputError, SuspMjError
 from susp_mj.hiding import explained
+from susp_mj.plugins import blamed
 
 if TYPE_CHECKING:
     from .case import Case
@@ -231,7 +232,7 @@ def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool = False
 
 
 def _guarded(command: Callable[[], object]) -> None:
-    """Run a command; a known error, or one whose reason is known, becomes one line and exit code 2, never a traceback.
+    """Run a command; an error whose reason is known becomes one line and exit code 2, never a traceback.
 
     MuJoCo cannot be imported under a MUJOCO_GL that does not work, and only rendering needs it: it is kept for that.
     """
@@ -242,15 +243,6 @@ def _guarded(command: Callable[[], object]) -> None:
             stream.reconfigure(errors="replace")
     try:
         command()
-    except SuspMjError as error:
-        typer.echo(f"{typer.style('error:', fg='red')} {error}", err=True)
-        sys.exit(2)
-    except ImportError as error:
-        reason = explained(error)
-        if reason is None:
-            raise
-        typer.echo(f"{typer.style('error:', fg='red')} {reason}", err=True)
-        sys.exit(2)
     except typer.Exit as leave:
         sys.exit(leave.exit_code)
     except KeyboardInterrupt:
@@ -259,9 +251,20 @@ def _guarded(command: Callable[[], object]) -> None:
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)
-    except OSError as error:
-        typer.echo(f"{typer.style('error:', fg='red')} {error.strerror or error}", err=True)
+    except (Exception, SystemExit) as error:
+        reason = _reason(error)
+        if reason is None:
+            raise
+        typer.echo(f"{typer.style('error:', fg='red')} {reason}", err=True)
         sys.exit(2)
+
+
+def _reason(error: BaseException) -> str | None:
+    """What an error says to the user, in one line; None of one that only tells us something."""
+    reason = blamed(error) or explained(error)
+    if reason is None and isinstance(error, OSError):
+        return error.strerror or str(error)
+    return str(error) if reason is None and isinstance(error, SuspMjError) else reason
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from evaluation.compare import Claim, Comparison
 from susp_mj.errors import InputError, SuspMjError
+from susp_mj.plugins import blamed
 from susp_mj.recording import versions
 
 from .case import Case, file_name
@@ -116,6 +117,8 @@ def staged(out: Path) -> Iterator[Path]:
                 item.replace(target)
         created = []
     except OSError as error:
+        if blamed(error):
+            raise
         raise InputError(f"cannot be written: {error.strerror or error}", source=str(out)) from None
     finally:
         if stage is not None:

@@ -98,7 +98,7 @@ def _plugins(arguments: Sequence[str]) -> list[str]:
 
 def _add_plugin(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--plugin", action="append", help="Python file that brings elements, manoeuvres or numbers, repeatable"
+        "--plugin", action="append", help="Python file that brings elements, manoeuvres, numbers or cameras, repeatable"
     )
 
 

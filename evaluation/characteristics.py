@@ -179,8 +179,8 @@ def _speeds() -> np.ndarray:
 
 
 def _frequency(spring: Any, deflection: np.ndarray) -> np.ndarray:
-    """Natural frequency [Hz]; not a number where the spring carries nothing."""
-    carries = spring.force_at(deflection) > 0
+    """Natural frequency [Hz]; not a number where the spring carries nothing, or gives way."""
+    carries = (spring.force_at(deflection) > 0) & (spring.rate_at(deflection) > 0)
     result = np.full(len(deflection), np.nan)
     result[carries] = spring.frequency_at(deflection[carries])
     return result

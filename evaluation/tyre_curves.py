@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from susp_mj.elements.law import numbers_of
+
 LOADS = (0.5, 1.0, 1.5, 2.0)
 """Loads of the curves, as multiples of the wheel load in the design position."""
 LARGEST_KAPPA, LARGEST_ALPHA = 0.3, math.radians(15)
@@ -71,7 +73,7 @@ def tyre_curves(tyre: Any, nominal_load: float, loads: Sequence[float] | None = 
         loads: [N]; by default `LOADS` times the nominal one, to 100 N.
     """
     weights = tuple(round(nominal_load * each, -2) for each in LOADS) if loads is None else tuple(map(float, loads))
-    return _sampled(tyre.kind, tyre.law, tyre.parameters(), float(nominal_load), weights)
+    return _sampled(tyre.kind, tyre.law, numbers_of(tyre), float(nominal_load), weights)
 
 
 @functools.lru_cache(maxsize=64)

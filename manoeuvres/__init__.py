@@ -6,8 +6,9 @@ The modules have English names. Where the thesis names a manoeuvre in German, a 
 
 from __future__ import annotations
 
+from susp_mj.character import Character
 from susp_mj.description import left_out
-from susp_mj.errors import InputError, choices
+from susp_mj.errors import InputError, choices, short
 from susp_mj.manoeuvre import Manoeuvre
 
 from .acceleration import Acceleration
@@ -79,13 +80,18 @@ def register(manoeuvre: type[Manoeuvre]) -> None:
     """Make a manoeuvre of your own known by its `kind`, in case files and on the command line.
 
     Raises:
-        InputError: it has no kind, the kind is taken by another, or it does not say what is done or when it begins.
+        InputError: it has no kind, the kind is taken by another, or it does not say what it is, what it needs, what is
+            done or when it begins.
     """
     kind = manoeuvre.name()
     if not isinstance(kind, str):
         raise InputError(f"{manoeuvre.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")
     if left_out(manoeuvre):
         raise InputError(f"{manoeuvre.__name__} does not define {left_out(manoeuvre)}, which every manoeuvre has")
+    for name, wanted in (("character", Character), ("needs", tuple)):
+        given = getattr(manoeuvre, name)
+        if not isinstance(given, wanted):
+            raise InputError(f"{name} of {manoeuvre.__name__} is {short(given)}, not a {wanted.__name__}")
     if not hasattr(manoeuvre, manoeuvre.begins) and manoeuvre.begins not in ("start", *manoeuvre.model_fields):
         raise InputError(f"{manoeuvre.__name__} begins with '{manoeuvre.begins}', which is none of its parameters")
     taken = {each.german for each in MANOEUVRES.values()}

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+import reprlib
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from types import CodeType
+from typing import Any
 
 
 class SuspMjError(Exception):
@@ -36,6 +40,29 @@ class SimulationError(SuspMjError):
 
 class CallbackError(SuspMjError):
     """The compiled callbacks do not fit this MuJoCo, or another program's callbacks are in their place."""
+
+
+def place_of(function: Callable[..., Any]) -> str:
+    """Where a function is written, and its name: ``mine.py, line 12, in jerk_max``."""
+    code = getattr(getattr(function, "__func__", function), "__code__", None)
+    return place_in(code, code.co_firstlineno) if isinstance(code, CodeType) else repr(function)
+
+
+def wrong_answer(function: Callable[..., Any], given: str, wanted: str) -> InputError:
+    """Error of a function of a user's own that gives something else than what is wanted of it."""
+    return InputError(f"gives {given}, not {wanted}", source=place_of(function))
+
+
+def short(value: object) -> str:
+    """A value that may be long or large, on one short line."""
+    return " ".join(reprlib.repr(value).split())
+
+
+def place_in(code: CodeType, line: int) -> str:
+    """A line of a function's code, in the same words."""
+    name = code.co_qualname if hasattr(code, "co_qualname") else code.co_name
+    within = "" if name == "<module>" else f", in {name.replace('<locals>.', '')}"
+    return f"{Path(code.co_filename).name}, line {line}{within}"
 
 
 FEW, NEAREST = 12, 8

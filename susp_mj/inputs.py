@@ -4,10 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from .errors import InputError
+from .elements import Driver
+from .errors import InputError, short, wrong_answer
 from .manoeuvre import Manoeuvre, ValueAndRate
 from .plant import Plant
 from .roads import Road
+
+
+def road_and_driver(manoeuvre: Manoeuvre) -> tuple[Road | None, Driver | None]:
+    """What a manoeuvre gives a car that drives freely.
+
+    Raises:
+        InputError: it gives something else.
+    """
+    road, driver = manoeuvre.road(), manoeuvre.driver()
+    for method, given, kind in ((manoeuvre.road, road, Road), (manoeuvre.driver, driver, Driver)):
+        if not (given is None or isinstance(given, kind)):
+            raise wrong_answer(method, f"a {type(given).__name__}", f"a {kind.__name__} or None")
+    return road, driver
 
 
 def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, road: Road | None = None) -> np.ndarray:
@@ -21,7 +35,11 @@ def sample_inputs(plant: Plant, manoeuvre: Manoeuvre, time: np.ndarray, road: Ro
         if driven is None and plant.meaning.driving:
             driven = _holding(place.quantity, manoeuvre, time)
         if driven is not None:
-            samples[:, i, 0], samples[:, i, 1] = driven
+            try:
+                samples[:, i, 0], samples[:, i, 1] = driven
+            except (TypeError, ValueError):
+                wanted = f"({len(time)},) values and ({len(time)},) rates, or None"
+                raise wrong_answer(manoeuvre.drive, f"{short(driven)} for {place.quantity}", wanted) from None
     if not np.isfinite(samples).all():
         raise InputError(f"manoeuvre {manoeuvre.kind} gives an input that is not finite", source="manoeuvre")
     if plant.car is not None:

@@ -1,4 +1,4 @@
-"""Plugins: a user's own Python files, which register elements, manoeuvres or numbers before something is read.
+"""Plugins: a user's own Python files, which register elements, manoeuvres, numbers or cameras before they are needed.
 
 A case or vehicle file names them by `plugins`; an installed package by an entry point of group `susp_mj.plugins`. Each
 is run once in a process.
@@ -16,9 +16,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from .errors import InputError, SuspMjError
+from .errors import InputError, SuspMjError, place_in
 
 GROUP = "susp_mj.plugins"
+_FILES: set[str] = set()
+"""Files of the plugins of this process, as their code names them."""
 
 
 def load_plugins(names: Any, path: Path) -> None:
@@ -50,6 +52,7 @@ def load_plugin(path: Path) -> None:
     path = path.resolve()
     if not path.is_file():
         raise InputError("no such file", source=str(path))
+    _FILES.add(str(path))
     if _is_loaded(path):
         return
     spec = spec_from_file_location(f"susp_mj_plugin_{path.stem}_{zlib.crc32(bytes(path)):08x}", path)
@@ -73,8 +76,19 @@ def load_installed() -> None:
     for entry in entry_points(group=GROUP):
         try:
             entry.load()
+            _FILES.add(str(getattr(sys.modules.get(entry.module), "__file__", "")))
         except (Exception, SystemExit) as error:
             raise InputError(_reason(error), source=f"installed plugin '{entry.name}' ({entry.value})") from error
+
+
+def blamed(error: BaseException) -> str | None:
+    """An error that arose in a plugin's code after it was loaded, as one line with its place; None if it did not."""
+    frames = [
+        (frame.f_code, line)
+        for frame, line in traceback.walk_tb(error.__traceback__)
+        if frame.f_code.co_filename in _FILES
+    ]
+    return f"{place_in(*frames[-1])}: {_reason(error)}" if frames else None
 
 
 def _is_loaded(path: Path) -> bool:

@@ -11,12 +11,12 @@ import mujoco
 import numpy as np
 
 from .character import Car
-from .errors import SimulationError
+from .errors import SimulationError, choices, short, wrong_answer
 from .features import as_json
 from .handling.block import SIGNALS
 from .handling.motion import free_motion
 from .manoeuvre import Manoeuvre
-from .names import channel_name
+from .names import QUANTITIES, channel_name
 from .plant import Plant
 from .roads import Road
 from .run import Channel, Run, described
@@ -50,8 +50,7 @@ def as_run(
         steered: whether a driver steered.
     """
     channels = _channels(plant, records, inputs, steered=steered)
-    for quantity, values in manoeuvre.record(time).items():
-        channels[quantity] = described(quantity, values)
+    channels |= _signals(manoeuvre, time)
     return Run(time, channels, _meta(plant, manoeuvre, step, road))
 
 
@@ -80,6 +79,19 @@ def _channels(plant: Plant, records: np.ndarray, inputs: np.ndarray, *, steered:
         if name not in channels:  # what acts in the end may be more than the input
             channels[name] = described(place.quantity, inputs[:, i, 0].copy(), place.station)
     return channels
+
+
+def _signals(manoeuvre: Manoeuvre, time: np.ndarray) -> dict[str, Channel]:
+    """Channels of what the manoeuvre itself keeps with the run."""
+    given: Any = manoeuvre.record(time)
+    if not isinstance(given, Mapping):
+        raise wrong_answer(manoeuvre.record, short(given), "arrays by quantity")
+    for quantity, values in given.items():
+        if quantity not in QUANTITIES:
+            raise wrong_answer(manoeuvre.record, f"'{quantity}'", f"a known quantity; {choices(QUANTITIES, quantity)}")
+        if not isinstance(values, np.ndarray) or values.shape != time.shape:
+            raise wrong_answer(manoeuvre.record, f"{short(values)} for '{quantity}'", f"an array of {time.shape}")
+    return {quantity: described(quantity, values) for quantity, values in given.items()}
 
 
 def _meta(plant: Plant, manoeuvre: Manoeuvre, step: float, road: Road | None) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import numpy as np
 from .equilibrium import static_equilibrium
 from .errors import InputError
 from .handling.block import SIGNALS
-from .inputs import sample_inputs
+from .inputs import road_and_driver, sample_inputs
 from .manoeuvre import Manoeuvre
 from .plant import Plant
 from .recording import FIELDS, Diverged, as_run
@@ -81,7 +81,7 @@ def simulate(
     _check_length(manoeuvre, step, record_every)
 
     steps = max(round(manoeuvre.duration / step / record_every), 1) * record_every
-    road, driver = (manoeuvre.road(), manoeuvre.driver()) if plant.car is not None else (None, None)
+    road, driver = road_and_driver(manoeuvre) if plant.car is not None else (None, None)
     install((*plant.laws, *(() if driver is None else [(driver.law.number, driver.role)])))
     samples = sample_inputs(plant, manoeuvre, np.arange(2 * steps + 1) * (step / 2), road)
     surface = manoeuvre.surface(road) if plant.car is not None else None

@@ -11,6 +11,8 @@ import numpy as np
 from susp_mj.run import Run
 
 from ..colours import COLOURS
+from . import cameras
+from .cameras import Camera
 from .clip import Clip
 from .handling.hud import HandlingHud
 from .handling.scene import HandlingScene
@@ -59,8 +61,13 @@ def frames(clips: Sequence[Clip], window: Window, size: tuple[int, int], style: 
 
 
 def film(folder: Path) -> None:
-    """Read the order that `render` left in a folder, draw, encode, and print the fraction done."""
+    """Read the order that `render` left in a folder, draw, encode, and print the fraction done.
+
+    The order brings the cameras of the process that gave it, for a plugin's are not known here.
+    """
     order = json.loads((folder / "order.json").read_text(encoding="utf-8"))
+    for name, camera in order["cameras"].items():
+        cameras.register(name, Camera(**camera))
     clips = [Clip(label, Run.load(folder / f"{number}.nc")) for number, label in enumerate(order["labels"])]
     size = (int(order["size"][0]), int(order["size"][1]))
     window = window_of([clip.run for clip in clips], order["fps"], order["playback"])

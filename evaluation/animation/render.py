@@ -14,6 +14,7 @@ from susp_mj.errors import InputError, SuspMjError
 from susp_mj.files import whole
 
 from ..colours import COLOURS
+from .cameras import CAMERAS
 from .clip import Clip
 from .kinds import kind_of
 from .style import Style
@@ -72,6 +73,7 @@ def render_video(
                 "fps": fps,
                 "playback": playback,
                 "style": asdict(style),
+                "cameras": {name: asdict(each) for name, each in CAMERAS.items()},
             }
             for number, clip in enumerate(clips):
                 clip.run.save(Path(folder, f"{number}.nc"))

@@ -71,7 +71,15 @@ class Style:
         Raises:
             InputError: something that only runs of a car that drives freely can have.
         """
-        if not kind_of(clips).free:
+        self.suits(kind_of(clips).free, len(clips))
+
+    def suits(self, free: bool, configurations: int) -> None:
+        """Whether so many cars, that drive freely or not, can be drawn so.
+
+        Raises:
+            InputError: as `check`.
+        """
+        if not free:
             if self.camera is not None:
                 raise _refused(
                     "camera", f"'{self.camera}' is for runs of model handling; other cars are drawn from one place"
@@ -80,8 +88,8 @@ class Style:
                 raise _refused(
                     "layout", f"'{self.layout}' is for runs of model handling; other cars stand side by side"
                 )
-        if self.ghost and len(clips) > MOST_GHOSTS:
-            raise _refused("layout", f"'{self.layout}' shows up to {MOST_GHOSTS} configurations, not {len(clips)}")
+        if self.ghost and configurations > MOST_GHOSTS:
+            raise _refused("layout", f"'{self.layout}' shows up to {MOST_GHOSTS} configurations, not {configurations}")
 
 
 def _refused(key: str, message: str) -> InputError:

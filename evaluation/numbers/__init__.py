@@ -23,7 +23,22 @@ from . import (
     wheel_lift,
 )
 from .number import EVERY_RUN, Answer, Criterion, Measure, Number, Runs, no_question
-from .runs import recorded
+from .runs import (
+    DRIVES,
+    NOT_ON_RIG,
+    beginning,
+    car,
+    character,
+    drives,
+    driving,
+    facts,
+    is_a,
+    known,
+    on_rig,
+    on_tyres,
+    parameter,
+    recorded,
+)
 
 NUMBERS: dict[str, Measure] = {
     each.name: each
@@ -50,8 +65,10 @@ def register(measure: Measure) -> None:
     """Add a number of your own; from then on reports show it and case files may name it.
 
     Raises:
-        InputError: the name is taken.
+        InputError: it is no `Measure`, or the name is taken.
     """
+    if not isinstance(measure, Measure):
+        raise InputError(f"a {type(measure).__name__} is no number; give Measure(function, unit, runs)")
     if measure.name in NUMBERS:
         raise InputError(f"number '{measure.name}' is taken", source="register")
     NUMBERS[measure.name] = measure
@@ -70,15 +87,28 @@ def evaluate(run: Run, names: Sequence[str]) -> dict[str, Number]:
 
 
 __all__ = [
+    "DRIVES",
     "EVERY_RUN",
+    "NOT_ON_RIG",
     "NUMBERS",
     "Answer",
     "Criterion",
     "Measure",
     "Number",
     "Runs",
+    "beginning",
+    "car",
+    "character",
+    "drives",
+    "driving",
     "evaluate",
+    "facts",
+    "is_a",
+    "known",
     "no_question",
+    "on_rig",
+    "on_tyres",
+    "parameter",
     "recorded",
     "register",
 ]

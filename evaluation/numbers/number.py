@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from numbers import Real
+from typing import Any
 
+from susp_mj.errors import InputError, short, wrong_answer
 from susp_mj.run import Run
 
 
@@ -77,17 +81,41 @@ class Measure:
         function: gives the answer for a run of the kind; its name is the number's, its docstring says what it is.
         unit: SI unit of the number, "1" for a pure one.
         runs: for which runs the question makes sense.
+
+    Raises:
+        InputError: a value of another type.
     """
 
     function: Callable[[Run], Answer]
     unit: str
     runs: Runs = EVERY_RUN
 
+    def __post_init__(self) -> None:
+        for key, kind in (("unit", str), ("runs", Runs)):
+            value = getattr(self, key)
+            if not isinstance(value, kind):
+                raise InputError(f"{key} of number '{self.name}' is a {type(value).__name__}, not a {kind.__name__}")
+
     def __call__(self, run: Run) -> Number:
-        """The number of a run."""
+        """The number of a run.
+
+        Raises:
+            InputError: what the function gives is no answer.
+        """
         reason = self.runs.refuse(run)
-        answer = self.function(run) if reason is None else no_question(reason)
+        answer = self._checked(self.function(run)) if reason is None else no_question(reason)
         return Number(answer.value, self.unit, answer.note, answer.applies)
+
+    def _checked(self, answer: Any) -> Answer:
+        """An answer whose value is finite or None, and whose note is a text."""
+        given = short(answer)
+        if isinstance(answer, Answer):
+            finite = answer.value is None or (isinstance(answer.value, Real) and math.isfinite(answer.value))
+            if finite and isinstance(answer.note, str):
+                return answer
+            given = f"Answer({short(answer.value)}, {short(answer.note)})"
+        wanted = "an Answer(value, note), its value finite, or None and the note says why"
+        raise wrong_answer(self.function, f"{given} for number '{self.name}'", wanted)
 
     @property
     def name(self) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from susp_mj.character import Car, Character, Trait
+from susp_mj.character import Car, Character, check_traits
 from susp_mj.run import Run
 
 from .number import Runs
@@ -23,8 +23,13 @@ def character(run: Run) -> Character:
     return Character.read(run.meta.get("character", {}))
 
 
-def is_a(run: Run, *traits: Trait) -> bool:
-    """Whether any of these holds of its manoeuvre."""
+def is_a(run: Run, *traits: str) -> bool:
+    """Whether any of these holds of its manoeuvre.
+
+    Raises:
+        InputError: an unknown trait.
+    """
+    check_traits(*traits)
     return not set(traits).isdisjoint(character(run).traits)
 
 
@@ -58,8 +63,13 @@ def on_tyres(run: Run) -> bool:
     return car(run) != "oscillation"
 
 
-def driving(trait: Trait, otherwise: str) -> Runs:
-    """Runs of a freely driving car of whose manoeuvre something holds, and that last until it begins."""
+def driving(trait: str, otherwise: str) -> Runs:
+    """Runs of a freely driving car of whose manoeuvre something holds, and that last until it begins.
+
+    Raises:
+        InputError: an unknown trait.
+    """
+    check_traits(trait)
     return Runs(lambda run: drives(run) and is_a(run, trait) and character(run).begin <= run.time[-1], otherwise)
 
 

@@ -90,6 +90,8 @@ def _spring_rate(panel: Axes, order: int, each: Characteristic) -> None:
 
 def _spring_frequency(panel: Axes, order: int, each: Characteristic) -> None:
     inside = np.isfinite(each.spring_frequency)
+    if not inside.any():
+        return
     load, frequency = np.asarray(each.spring_force)[inside] * 1e-3, np.asarray(each.spring_frequency)[inside]
     draw_line(panel, order, load, frequency)
     at_preload = float(np.interp(each.preload * 1e-3, load, frequency))

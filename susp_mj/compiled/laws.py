@@ -17,7 +17,7 @@ from numba.core import cgutils
 
 from ..elements import AIR, BRAKE, CONTACT, DRIVER, FORCE, LAWS, Role
 from ..elements.law import LAW_TABLE_SIZE, helpers
-from ..errors import CallbackError
+from ..errors import CallbackError, place_of
 from .memory import OPTIONS, intrinsic, usable
 
 STATE_RATE = "state_rate"
@@ -151,6 +151,7 @@ def _compiled(name: str, function: Any, signature: Any) -> Any:
     try:
         compiled = cfunc(signature, **OPTIONS, cache=function.__module__.startswith("susp_mj."))(function)
     except Exception as error:
-        reason = str(error).strip().splitlines()[0]
-        raise CallbackError(f"law '{name}' does not compile ({reason}); use math and plain arithmetic only") from error
+        lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Failed in")]
+        text = f"law '{name}' does not compile ({lines[0].strip()}); use math and plain arithmetic only"
+        raise CallbackError(f"{place_of(function)}: {text}") from error
     return compiled

@@ -69,7 +69,7 @@ def damper_at_wheel(damper: Damper, ratio: MotionRatio, travel: float = 0.0) -> 
 
 
 def _damper(damper: Damper, i: float) -> TableDamper:
-    (v_c, f_c), (v_r, f_r) = damper.branches()
+    (v_c, f_c), (v_r, f_r) = damper.lines()
     if f_c[0] != 0.0:
         raise InputError(f"pushes with {f_c[0]:g} N at rest; only the spring may carry the body", key="damper")
     speed, force = np.concatenate([-v_r[:0:-1], v_c[1:]]), np.concatenate([-f_r[:0:-1], f_c[1:]])

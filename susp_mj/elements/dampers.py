@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from pydantic import Field, field_validator, model_validator
 
 from ..description import Description, wrong
+from ..errors import short, wrong_answer
 from ..units import Damping, NonNegativeForce, Quantity, Stiffness
 from .element import FloatArray, ForceElement, chosen_from
 from .law import Law, Parameters
@@ -68,6 +69,17 @@ DIRECT_DAMPER = Law("direct_damper", direct_force)
 MOUNTED_DAMPER = Law("mounted_damper", mounted_force, mounted_rod_speed)
 
 
+def _rises(speed: FloatArray, force: FloatArray) -> bool:
+    """Whether both begin at 0 and increase strictly, together."""
+    return (
+        speed.shape == force.shape == (speed.size,)
+        and speed.size > 1
+        and all(
+            values[0] == 0.0 and np.isfinite(values[-1]) and (np.diff(values) > 0.0).all() for values in (speed, force)
+        )
+    )
+
+
 class Mount(Description):
     """Rubber mount in series with the damper.
 
@@ -95,9 +107,13 @@ class Damper(ForceElement):
         speed = np.concatenate([[0.0], np.geomspace(1e-4, LARGEST_SPEED, 80)])
         return (speed, self.force_at(speed)), (speed, -self.force_at(-speed))
 
+    def lines(self) -> Branches:
+        """The pieces that `branches` gives, for what goes by them."""
+        return self.branches()
+
     def slopes(self) -> FloatArray:
         """Slopes dF/dv [N s/m] of the characteristic's pieces, compression first."""
-        return np.concatenate([np.diff(force) / np.diff(speed) for speed, force in self.branches()])
+        return np.concatenate([np.diff(force) / np.diff(speed) for speed, force in self.lines()])
 
     def without_friction(self) -> Damper:
         """The same damper without what acts like Coulomb friction, for linearisation."""
@@ -125,13 +141,29 @@ class HydraulicDamper(Damper):
     def branches(self) -> Branches:
         """Speeds [m/s] and forces [N] from the origin outwards, both positive: compression, then rebound."""
 
+    def lines(self) -> Branches:
+        """The straight lines that `branches` gives, found good.
+
+        Raises:
+            InputError: a branch does not begin in the origin, or does not increase strictly.
+        """
+        given: Any = self.branches()
+        try:
+            compression, rebound = [(np.asarray(speed, float), np.asarray(force, float)) for speed, force in given]
+        except (TypeError, ValueError):
+            compression = rebound = (np.zeros(0), np.zeros(0))
+        if not all(_rises(*branch) for branch in (compression, rebound)):
+            wanted = "speeds and forces of compression, then of rebound, each from 0 on strictly increasing"
+            raise wrong_answer(type(self).branches, short(given), wanted)
+        return compression, rebound
+
     @property
     def active_law(self) -> Law:
         return self.law if self.mount is None else MOUNTED_DAMPER
 
     def parameters(self) -> tuple[float, ...]:
         numbers: list[float] = []
-        branches = self.branches()
+        branches = self.lines()
         for speed, force in branches:
             slope = np.diff(force) / np.diff(speed)
             numbers += np.column_stack([speed[:-1], force[:-1], slope]).ravel().tolist()

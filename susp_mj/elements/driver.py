@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from .law import Law, Parameters, Role
+from .law import Law, Parameters, Role, numbers_of
 
 DRIVER = Role(
     "driver",
@@ -99,7 +99,7 @@ class Driver(ABC):
 
     def block(self) -> np.ndarray:
         """The driver as the compiled car reads him: the number of his law, then its parameters."""
-        return np.array([float(self.law.number), *self.parameters()])
+        return np.array([float(self.law.number), *numbers_of(self)])
 
 
 @dataclass(frozen=True)

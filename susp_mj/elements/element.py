@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from numbers import Real
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -12,8 +13,8 @@ from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
 
 from ..description import Description
-from ..errors import choices
-from .law import FORCE, Law, Role
+from ..errors import choices, short, wrong_answer
+from .law import FORCE, Law, Role, numbers_of
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -47,10 +48,20 @@ class ForceElement(Element):
     """Methods that a kind whose law has an inner state must define itself."""
 
     def evaluate(self, deflection: ArrayLike = 0.0, speed: ArrayLike = 0.0, state: ArrayLike = 0.0) -> FloatArray:
-        """Force [N] of the law, positive in compression; arguments broadcast as in numpy."""
-        p = self.parameters()
-        force = np.vectorize(lambda x, v, y: self.active_law.function(x, v, y, p), otypes=[float])
-        return force(np.asarray(deflection, float), np.asarray(speed, float), np.asarray(state, float))
+        """Force [N] of the law, positive in compression; arguments broadcast as in numpy.
+
+        Raises:
+            InputError: the law gives no numbers.
+        """
+        p, function = numbers_of(self), self.active_law.function
+        force = np.vectorize(lambda x, v, y: function(x, v, y, p), otypes=[float])
+        try:
+            return force(np.asarray(deflection, float), np.asarray(speed, float), np.asarray(state, float))
+        except (TypeError, ValueError):
+            at_rest = function(0.0, 0.0, 0.0, p)
+            if not isinstance(at_rest, Real):
+                raise wrong_answer(function, short(at_rest), "a number") from None
+            raise
 
     def time_constant(self) -> float | None:
         """Fastest time constant [s] of the inner state, which the step must resolve; None without one."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from types import FunctionType
-from typing import Any
+from typing import Any, Protocol
 
-from ..errors import CallbackError
+from ..errors import CallbackError, short, wrong_answer
 
 Parameters = Sequence[float]
 
@@ -83,6 +84,28 @@ class Law:
         out = [0.0] * len(self.role.answers)
         self.function(*asked, parameters, out)
         return tuple(out)
+
+
+class HasParameters(Protocol):
+    """What hands numbers to a law: an element, a driver."""
+
+    def parameters(self) -> tuple[float, ...]: ...
+
+
+def numbers_of(part: HasParameters) -> tuple[float, ...]:
+    """The numbers that a part hands to its law.
+
+    Raises:
+        InputError: its `parameters` gives anything but finite numbers.
+    """
+    given: Any = part.parameters()
+    try:
+        numbers = tuple(float(each) for each in given)
+    except (TypeError, ValueError):
+        numbers = (math.nan,)
+    if not all(map(math.isfinite, numbers)):
+        raise wrong_answer(type(part).parameters, short(given), "a tuple of finite numbers")
+    return numbers
 
 
 def helpers(function: Callable[..., Any]) -> dict[str, FunctionType]:

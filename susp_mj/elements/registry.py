@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
+
 from ..description import left_out
-from ..errors import CallbackError
+from ..errors import CallbackError, place_of
 from .aero import AERODYNAMICS, Aerodynamics
 from .bars import AntiRollBar, Overturning
 from .brakes import BRAKES, Brakes
@@ -49,8 +51,8 @@ def register(element: type[Element] | type[Driver]) -> None:
 
     Raises:
         CallbackError: it leaves out what its base class asks for, its kind or the number of its law is taken by
-            something else, its law has another role than its family, calls functions of another module, or has an inner
-            state that the element says too little of.
+            something else, its law has another role than its family, takes other arguments than its role says, calls
+            functions of another module, or has an inner state that the element says too little of.
     """
     kinds = next((kinds for family, kinds in FAMILIES.items() if issubclass(element, family)), None)
     if kinds is None and not issubclass(element, Driver):
@@ -77,8 +79,11 @@ def _check_law(element: type[Element] | type[Driver]) -> None:
         raise CallbackError(f"law '{law.name}' has role '{law.role.name}'; that of {family} needs role '{wanted}'")
     if LAWS.get(law.number, law) != law:
         raise CallbackError(f"law '{law.name}' has the same number as '{LAWS[law.number].name}'; rename it")
+    taken = (*law.role.asked, "parameters", *(["out"] if law.role.answers else []))
     for function in law.functions():
         helpers(function)
+        if len(inspect.signature(function).parameters) != len(taken):
+            raise CallbackError(f"{place_of(function)}: a {law.role.name} law takes {', '.join(taken)}")
     if issubclass(element, HydraulicDamper) and law is not DIRECT_DAMPER:
         raise CallbackError(
             f"{element.__name__} has a law of its own, '{law.name}'; then it derives from Damper, without the friction "

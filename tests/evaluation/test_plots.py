@@ -175,6 +175,14 @@ def test_characteristic_follows_its_spring_and_damper():
     ]
 
 
+def test_a_spring_that_gives_way_has_no_frequency_and_is_drawn():
+    axle = load_vehicle("chapter3", "linear").rear
+    known = characteristic("rear axle", axle)
+    gives_way = replace(known, spring_rate=-known.spring_rate, spring_frequency=np.full(known.deflection.shape, np.nan))
+    plots = characteristic_plots({"stiff": [known], "gives way": [gives_way]})
+    assert set(plots) == set(characteristic_plots({"stiff": [known]}))
+
+
 def test_colours_of_a_page_follow_its_scheme_and_no_others_are_left(drawn):
     for svg in drawn.values():
         page = for_page(svg)

@@ -133,7 +133,8 @@ def test_every_driving_manoeuvre_has_a_case():
         for name in available_cases()
         if name.startswith("handling_")
     }
-    assert {*DRIVING, "bump", "suspension_rig"} <= kinds
+    missing = sorted({*DRIVING, "bump", "suspension_rig"} - kinds)
+    assert not missing, "add " + ", ".join(f"design/cases/handling_{kind}.toml" for kind in missing)
 
 
 def test_a_model_that_cannot_steer_is_refused_in_one_line():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from susp_mj.elements import (
     TYRES,
     AntiRollBar,
     Damper,
+    HydraulicDamper,
     LinkageFriction,
     Overturning,
     Spring,
@@ -560,3 +562,29 @@ def test_bases_cannot_be_used_bare():
     for base in (Spring, Damper):
         with pytest.raises(TypeError):
             base(kind="linear", stops=Stops(**STOPS))
+
+
+@pytest.mark.parametrize(
+    "branches",
+    [
+        None,
+        (([0.0, 1.0], [0.0, 900.0]),),
+        (([0.0, 1.0], [0.0, 900.0]), ([0.0, 1.0], [0.0, -900.0])),
+        (([0.0, 1.0], [0.0, 900.0]), ([0.1, 1.0], [0.0, 900.0])),
+        (([0.0, 1.0], [0.0, 900.0]), ([0.0, 1.0, 2.0], [0.0, 900.0, 900.0])),
+        (([0.0, 1.0], [0.0, 900.0]), ([0.0, 1.0, 2.0], [0.0, 900.0])),
+        (([0.0, 1.0], [0.0, 900.0]), ([0.0], [0.0])),
+        (([0.0, 1.0], [0.0, 900.0]), ([0.0, 1.0], [0.0, float("inf")])),
+        (([0.0, 1.0], [0.0, 900.0]), ([0.0, 1.0], "ab")),
+    ],
+)
+def test_a_damper_of_ones_own_whose_branches_do_not_rise_is_refused_where_it_is_written(branches):
+    class Mine(HydraulicDamper):
+        kind: Literal["mine"] = "mine"
+
+        def branches(self):
+            return branches
+
+    for ask in (Mine.parameters, Mine.slopes, lambda damper: damper.force_at(0.1)):
+        with pytest.raises(InputError, match=r"test_elements\.py, line \d+, in .*Mine\.branches: gives .*, not speeds"):
+            ask(Mine())

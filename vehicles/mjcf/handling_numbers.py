@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from susp_mj.elements import ContactTyre, Kinematics
+from susp_mj.elements.law import numbers_of
 from susp_mj.errors import InputError
 from susp_mj.handling.block import CONTROLS, MOST_GEARS, RIG_CONTROLS, car_block, table, table_of_tables, tables
 
@@ -155,8 +156,8 @@ def _car_tables(car: CompleteCar) -> list[tuple[str, int, np.ndarray]]:
     return [
         ("full_torque", -1, full),
         ("drag_torque", -1, drag),
-        ("brake_parameters", -1, np.array(car.brakes.parameters())),
-        ("air_parameters", -1, np.array(car.aerodynamics.parameters())),
+        ("brake_parameters", -1, np.array(numbers_of(car.brakes))),
+        ("air_parameters", -1, np.array(numbers_of(car.aerodynamics))),
     ]
 
 
@@ -166,7 +167,7 @@ def _wheel_tables(car: CompleteCar, wheels: Sequence[Wheel]) -> list[tuple[str, 
     placed = []
     for i, wheel in enumerate(wheels):
         motion, optional = of_axle[wheel.axle.name]
-        own = motion | {"tyre_parameters": np.array(wheel.tyre.parameters())} | optional
+        own = motion | {"tyre_parameters": np.array(numbers_of(wheel.tyre))} | optional
         placed += [(name, i, numbers) for name, numbers in own.items()]
     return placed
 

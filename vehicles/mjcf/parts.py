@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from susp_mj.elements import GRAVITY, ForceElement, HydraulicDamper
-from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
+from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER, numbers_of
 from susp_mj.handling.block import CAR_NUMERIC, SIGNALS
 from susp_mj.meaning import Input, Meaning, Output, TimeConstant, Travel
 from susp_mj.names import channel_name
@@ -143,7 +143,7 @@ class ModelBuilder:
         actuator.biastype, actuator.gainprm[0] = mujoco.mjtBias.mjBIAS_USER, 0.0
         if law.state_rate is not None:
             actuator.dyntype, actuator.actdim = mujoco.mjtDyn.mjDYN_USER, 1
-        self._actuators[-1] = (name, actuator, _Acting(law.number, partner, factor, element.parameters()))
+        self._actuators[-1] = (name, actuator, _Acting(law.number, partner, factor, numbers_of(element)))
         for station, weight in form.roads.items():
             self._entries[("road_height", station)].append((name, weight))
 

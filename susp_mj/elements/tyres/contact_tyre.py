@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal, NamedTuple, Self
 
 from ...units import PositiveLength, Quantity, Stiffness
 from ..element import Element
-from ..law import Role
+from ..law import Role, numbers_of
 
 Side = Literal["LEFT", "RIGHT"]
 VerticalDamping = Annotated[float, Quantity("N s/m", ge=0)]
@@ -82,4 +82,4 @@ class ContactTyre(Element):
     ) -> ContactForces:
         """Forces and moments of the law, in Python; arguments as in `CONTACT`."""
         asked = (kappa, tan_alpha, camber, load, rolling, lateral, friction)
-        return ContactForces(*self.law.answer(*asked, parameters=self.parameters()))
+        return ContactForces(*self.law.answer(*asked, parameters=numbers_of(self)))

@@ -4,12 +4,13 @@ ghosts."""
 from __future__ import annotations
 
 import subprocess
+from dataclasses import replace
 
 import mujoco
 import numpy as np
 import pytest
 
-from evaluation.animation import video
+from evaluation.animation import cameras, video
 from evaluation.animation.cameras import CAMERAS
 from evaluation.animation.clip import Clip, features_of
 from evaluation.animation.handling.camera import Follow, camera_for, inside
@@ -561,6 +562,36 @@ def test_same_runs_same_file(pictures, tmp_path):
         for name, layout in (("1.mp4", "ghost"), ("2.mp4", "ghost"))
     )
     assert one == other
+
+
+def test_a_camera_of_ones_own_is_known_where_the_film_is_drawn(pictures, tmp_path, monkeypatch):
+    clips = [Clip("one", driven(duration=0.5))]
+    monkeypatch.setitem(CAMERAS, "drone", CAMERAS["chase"])
+    one, other = (
+        render_video(clips, tmp_path / f"{name}.mp4", size=(320, 180), fps=4, camera=name).read_bytes()
+        for name in ("drone", "chase")
+    )
+    assert one == other
+
+
+@pytest.mark.parametrize(
+    ("change", "line"),
+    [
+        ({"bearing": "left"}, "camera: bearing: 'left' is not allowed; it must be a finite number"),
+        ({"drop": float("nan")}, "camera: drop: nan is not allowed; it must be a finite number"),
+        ({"wide": 0.0}, "camera: wide: 0 m is not allowed; it must be greater than 0"),
+    ],
+)
+def test_a_camera_that_cannot_be(change, line):
+    with pytest.raises(InputError) as caught:
+        replace(CAMERAS["chase"], **change)
+    assert str(caught.value) == line
+
+
+def test_a_camera_has_one_name():
+    cameras.register("chase", CAMERAS["chase"])
+    with pytest.raises(InputError, match="camera 'chase' is taken"):
+        cameras.register("chase", CAMERAS["side"])
 
 
 def test_car_that_stands_on_a_rig_is_shown_on_plates(pictures, tmp_path):
