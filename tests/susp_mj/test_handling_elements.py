@@ -211,7 +211,7 @@ LINES = [
 def test_mistakes(overrides, line):
     with pytest.raises(InputError) as caught:
         load_vehicle("bmw_320i", overrides=overrides)
-    assert str(caught.value) == f"bmw_320i.toml: {line}"
+    assert str(caught.value) == f"bmw_320i.toml with overrides: {line}"
 
 
 # ---- tables

@@ -216,7 +216,7 @@ def test_a_mount_too_stiff_for_the_step():
         simulate(plant, SHORT, step=1e-3)
     error = caught.value
     assert error.key == "rear.damper.mount.rate"
-    assert error.source == "chapter3.toml"
+    assert error.source == "chapter3.toml with overrides"
     assert "2e+06 N/m" in str(error)
     allowed = float(str(error).split("at most ")[1].split(" N/m")[0])
     assert allowed == pytest.approx(2.785 * slowest / 1e-3, rel=5e-3)
@@ -242,7 +242,7 @@ def test_a_preload_that_cannot_carry_the_load(preload):
         with pytest.raises(InputError, match="cannot carry load 'ko'") as caught:
             simulate(chapter3("linear", model, rear__spring__preload=preload), SHORT)
         assert caught.value.key == "rear.spring"
-        assert caught.value.source == "chapter3.toml"
+        assert caught.value.source == "chapter3.toml with overrides"
 
 
 class Elsewhere(Manoeuvre):
