@@ -94,6 +94,7 @@ def register(manoeuvre: type[Manoeuvre]) -> None:
             raise InputError(f"{name} of {manoeuvre.__name__} is {short(given)}, not a {wanted.__name__}")
     if not hasattr(manoeuvre, manoeuvre.begins) and manoeuvre.begins not in ("start", *manoeuvre.model_fields):
         raise InputError(f"{manoeuvre.__name__} begins with '{manoeuvre.begins}', which is none of its parameters")
+    manoeuvre.model_rebuild()  # a parameter that no file can give is refused here, by the line of a plugin
     taken = {each.german for each in MANOEUVRES.values()}
     if kind in taken or MANOEUVRES.get(kind, manoeuvre) is not manoeuvre:
         raise InputError(f"kind '{kind}' of {manoeuvre.__name__} is taken by another manoeuvre")

@@ -62,6 +62,7 @@ def register(element: type[Element] | type[Driver]) -> None:
         raise CallbackError(f"{element.__name__} does not define {left_out(element)}, which its base class asks for")
     _check_law(element)
     if kinds is not None and issubclass(element, Element):
+        element.model_rebuild()  # a field that no file can give is refused here, by the line of a plugin
         kind = element.model_fields["kind"].default
         if not isinstance(kind, str):
             raise CallbackError(f"{element.__name__} needs a default for 'kind', like kind: Literal['mine'] = 'mine'")

@@ -29,6 +29,16 @@ def test_a_plugin_is_run_once_whoever_names_it(tmp_path):
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
+        (
+            "from manoeuvres import Bump, register\nclass Odd(Bump):\n    kind: str = 'odd'\n    x: type(iter(''))\n"
+            "register(Odd)\n",
+            "case.toml: plugins.0: mine.py, line 5: PydanticSchemaGenerationError: ",
+        ),
+        (
+            "from susp_mj.elements import LinearSpring, register\nclass Odd(LinearSpring):\n    kind: str = 'odd'\n"
+            "    x: type(iter(''))\nregister(Odd)\n",
+            "case.toml: plugins.0: mine.py, line 5: PydanticSchemaGenerationError: ",
+        ),
         ("x = 1\n\n1 / 0\n", "case.toml: plugins.0: mine.py, line 3: ZeroDivisionError: division by zero"),
         ("x = 1\ny = = 2\n", "case.toml: plugins.0: mine.py, line 2: SyntaxError: invalid syntax"),
         ("import nothing_of_the_kind\n", "mine.py, line 1: ModuleNotFoundError: No module named 'nothing_of_the_kind'"),
