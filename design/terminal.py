@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from evaluation.display import quantity_text
-from evaluation.numbers.number import Number
+from evaluation.numbers.number import Number, Verdict
 
 if TYPE_CHECKING:
     from evaluation.characteristics import Characteristic
@@ -32,17 +32,17 @@ def print_comparison(comparison: Comparison) -> None:
     verdicts = [comparison.verdicts(each) for each in comparison.configurations]
     for name in comparison.configurations[0].numbers if comparison.configurations else ():
         cells = [
-            _cell(each.numbers[name], verdict.get(name))
-            for each, verdict in zip(comparison.configurations, verdicts, strict=True)
+            _cell(each.numbers[name], found.get(name))
+            for each, found in zip(comparison.configurations, verdicts, strict=True)
         ]
         table.add_row(name, *cells)
     console = _console()
     if comparison.configurations:
         console.print(table)
     _print_turning(comparison, console)
-    for each, verdict in zip(comparison.configurations, verdicts, strict=True):
-        failed = [f"{name} {_band(v)}" for name, v in verdict.items() if not v["passed"]]
-        if verdict:
+    for each, found in zip(comparison.configurations, verdicts, strict=True):
+        failed = [_missed(name, verdict) for name, verdict in found.items() if not verdict.passed]
+        if found:
             console.print(f"{each.name}: " + (f"fails {', '.join(failed)}" if failed else "meets all criteria"))
     for each in comparison.failures:
         console.print(Text(f"{each.name}: no run, {each.reason}", "bold red"))
@@ -232,22 +232,13 @@ def _first_line(thing: object) -> str:
     return (thing.__doc__ or "").split("\n")[0].replace("``", "")
 
 
-def _cell(number: Number, verdict: dict[str, object] | None) -> Text:
-    style = "" if verdict is None else "green" if verdict["passed"] else "bold red"
+def _cell(number: Number, verdict: Verdict | None) -> Text:
+    style = "" if verdict is None else "green" if verdict.passed else "bold red"
     return Text(quantity_text(number.value, number.unit), style)
 
 
-def _band(verdict: dict[str, object]) -> str:
-    low, high, unit = verdict["min"], verdict["max"], str(verdict["unit"])
-    parts = [
-        f"{sign} {quantity_text(float(str(bound)), unit)}"
-        for sign, bound in ((">=", low), ("<=", high))
-        if bound is not None
-    ]
-    return (
-        f"({quantity_text(None if verdict['value'] is None else float(str(verdict['value'])), unit)}, allowed "
-        f"{' and '.join(parts)})"
-    )
+def _missed(name: str, verdict: Verdict) -> str:
+    return f"{name} ({quantity_text(verdict.number.value, verdict.number.unit)}, allowed {verdict.band})"
 
 
 def _console() -> Console:

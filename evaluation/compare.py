@@ -11,7 +11,7 @@ import numpy as np
 from susp_mj.run import Run
 
 from .characteristics import Characteristic
-from .numbers.number import Criterion, Number
+from .numbers.number import Criterion, Number, Verdict
 
 if TYPE_CHECKING:
     from susp_mj.linear import Mode
@@ -118,24 +118,15 @@ class Comparison:
         """Those whose run did not."""
         return [each for each in self.outcomes if isinstance(each, Failure)]
 
-    def verdicts(self, configuration: Configuration) -> dict[str, dict[str, Any]]:
-        """Criteria of one configuration: ``{name: {value, unit, min, max, passed}}``."""
-        return {
-            name: {
-                "value": configuration.numbers[name].value,
-                "unit": configuration.numbers[name].unit,
-                "min": criterion.minimum,
-                "max": criterion.maximum,
-                "passed": criterion.passed(configuration.numbers[name].value),
-            }
-            for name, criterion in self.criteria.items()
-        }
+    def verdicts(self, configuration: Configuration) -> dict[str, Verdict]:
+        """The criteria held against the numbers of one configuration, by number name."""
+        return {name: Verdict(configuration.numbers[name], criterion) for name, criterion in self.criteria.items()}
 
     @property
     def passed(self) -> bool:
         """Whether every configuration has a run and meets every criterion."""
         verdicts = [verdict for each in self.configurations for verdict in self.verdicts(each).values()]
-        return not self.failures and all(verdict["passed"] for verdict in verdicts)
+        return not self.failures and all(verdict.passed for verdict in verdicts)
 
     def summary(self) -> list[dict[str, Any]]:
         """One entry per configuration, plain JSON values."""
@@ -152,5 +143,5 @@ class Comparison:
                 name: {"value": number.value, "unit": number.unit, "note": number.note}
                 for name, number in outcome.numbers.items()
             },
-            "criteria": self.verdicts(outcome),
+            "criteria": {name: verdict.plain() for name, verdict in self.verdicts(outcome).items()},
         }

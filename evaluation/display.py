@@ -78,3 +78,16 @@ def quantity_text(value: float | None, unit: str) -> str:
     '−32.3 mm'
     """
     return f"{number_text(value, unit)} {shown(unit).unit}".strip() if value is not None else "–"
+
+
+def band_text(minimum: float | None, maximum: float | None, unit: str) -> str:
+    """A band in words, its bounds in SI `unit`; a bound of None is open.
+
+    >>> band_text(0.001, None, "m"), band_text(None, 0.003, "m"), band_text(0.001, 0.003, "m")
+    ('at least 1.0 mm', 'at most 3.0 mm', '1.0 to 3.0 mm')
+    """
+    if minimum is None:
+        return "any value" if maximum is None else f"at most {quantity_text(maximum, unit)}"
+    if maximum is None:
+        return f"at least {quantity_text(minimum, unit)}"
+    return f"{number_text(minimum, unit)} to {quantity_text(maximum, unit)}"

@@ -22,7 +22,7 @@ from . import (
     travel_left,
     wheel_lift,
 )
-from .number import EVERY_RUN, Answer, Criterion, Measure, Number, Runs, no_question
+from .number import EVERY_RUN, Answer, Criterion, Measure, Number, Runs, Verdict, no_question
 from .runs import (
     DRIVES,
     NOT_ON_RIG,
@@ -96,6 +96,7 @@ __all__ = [
     "Measure",
     "Number",
     "Runs",
+    "Verdict",
     "beginning",
     "car",
     "character",

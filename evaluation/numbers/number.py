@@ -1,4 +1,5 @@
-"""Number: one evaluation result with its unit; Measure: the question that it answers; Criterion: the band for it."""
+"""Number: one evaluation result with its unit; Measure: the question that it answers; Criterion: the band for it;
+Verdict: whether it lies in there."""
 
 from __future__ import annotations
 
@@ -11,6 +12,8 @@ from typing import Any
 
 from susp_mj.errors import InputError, short, wrong_answer
 from susp_mj.run import Run
+
+from ..display import band_text
 
 
 @dataclass(frozen=True)
@@ -140,3 +143,31 @@ class Criterion:
         if value is None:
             return False
         return (self.minimum is None or value >= self.minimum) and (self.maximum is None or value <= self.maximum)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A number held against the band for it."""
+
+    number: Number
+    criterion: Criterion
+
+    @property
+    def passed(self) -> bool:
+        """Whether the number lies in the band."""
+        return self.criterion.passed(self.number.value)
+
+    @property
+    def band(self) -> str:
+        """The band with its unit, e.g. "at least 1.0 mm"."""
+        return band_text(self.criterion.minimum, self.criterion.maximum, self.number.unit)
+
+    def plain(self) -> dict[str, Any]:
+        """As plain JSON values."""
+        return {
+            "value": self.number.value,
+            "unit": self.number.unit,
+            "min": self.criterion.minimum,
+            "max": self.criterion.maximum,
+            "passed": self.passed,
+        }

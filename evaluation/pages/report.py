@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from susp_mj.files import write_text
 
-from ..display import number_text, quantity_text, shown
+from ..display import band_text, number_text, quantity_text, shown
 from ..numbers import NUMBERS
-from ..numbers.number import Criterion
 from ..plots.drawing import draw
 from ..turning import turning_table
 from .notes import GLOSSARY, elements_used, settings, station_words
@@ -98,7 +97,7 @@ def _verdict(comparison: Comparison) -> Iterator[dict[str, str]]:
         }
     if comparison.criteria:
         failing = {
-            c.name: sum(not v["passed"] for v in comparison.verdicts(c).values()) for c in comparison.configurations
+            c.name: sum(not v.passed for v in comparison.verdicts(c).values()) for c in comparison.configurations
         }
         said = "; ".join(
             f"{name} fails {count} of {len(comparison.criteria)}" if count else f"{name} meets all"
@@ -163,25 +162,10 @@ def _criteria_rows(comparison: Comparison) -> list[dict[str, Any]]:
     rows = []
     for name, criterion in comparison.criteria.items():
         found = [each[name] for each in verdicts]
-        cells = [_Cell(quantity_text(each["value"], each["unit"]), passed=each["passed"]) for each in found]
-        rows.append(
-            {
-                "name": name,
-                "label": _label(name),
-                "band": _band(criterion, found[0]["unit"] if found else ""),
-                "cells": cells,
-            }
-        )
+        cells = [_Cell(quantity_text(each.number.value, each.number.unit), passed=each.passed) for each in found]
+        band = found[0].band if found else band_text(criterion.minimum, criterion.maximum, "")
+        rows.append({"name": name, "label": _label(name), "band": band, "cells": cells})
     return rows
-
-
-def _band(criterion: Criterion, unit: str) -> str:
-    low, high = criterion.minimum, criterion.maximum
-    if low is not None and high is not None:
-        return f"{number_text(low, unit)} to {quantity_text(high, unit)}"
-    if low is not None:
-        return f"at least {quantity_text(low, unit)}"
-    return f"at most {quantity_text(high, unit)}" if high is not None else "any value"
 
 
 def _mode_rows(comparison: Comparison) -> list[dict[str, Any]]:

@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from evaluation.numbers import NUMBERS, Answer, Criterion, Measure, Number, evaluate, recorded, register
+from evaluation.display import band_text
+from evaluation.numbers import NUMBERS, Answer, Criterion, Measure, Number, Verdict, evaluate, recorded, register
 from evaluation.numbers.frequency import amplification
 from manoeuvres import VerticalSweep
 from susp_mj import InputError
@@ -299,6 +300,22 @@ def test_frequency_numbers_need_a_sweep():
 )
 def test_criterion(low, high, value, passed):
     assert Criterion(low, high).passed(value) == passed
+    verdict = Verdict(Number(value, "m"), Criterion(low, high))
+    assert verdict.passed == passed
+    assert verdict.plain() == {"value": value, "unit": "m", "min": low, "max": high, "passed": passed}
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (None, None, "any value"),
+        (0.001, None, "at least 1.0 mm"),
+        (None, 0.003, "at most 3.0 mm"),
+        (-0.001, 0.003, "−1.0 to 3.0 mm"),
+    ],
+)
+def test_band_in_words(low, high, words):
+    assert band_text(low, high, "m") == Verdict(Number(None, "m"), Criterion(low, high)).band == words
 
 
 def test_numbers_by_name():
