@@ -72,7 +72,7 @@ def case_from_arguments(name: str, arguments: Sequence[str]) -> Asked:
     case = validate(
         Case,
         {
-            "title": _title(kind, settings),
+            "title": _title(manoeuvre, settings),
             "model": options["model"],
             "manoeuvre": {**parameters, "kind": kind},
             "configuration": settings,
@@ -109,11 +109,9 @@ class _Parser(argparse.ArgumentParser):
         raise InputError(message, source=self.prog)
 
 
-def _title(kind: str, settings: Sequence[dict[str, Any]]) -> str:
+def _title(manoeuvre: type[Manoeuvre], settings: Sequence[dict[str, Any]]) -> str:
     """What is driven, and by which configurations in which load cases."""
-    return f"{kind.replace('_', ' ').capitalize()}: " + ", ".join(
-        f"{each['name']} (load {each['load']})" for each in settings
-    )
+    return f"{manoeuvre.title()}: " + ", ".join(f"{each['name']} (load {each['load']})" for each in settings)
 
 
 def _absolute(vehicle: str) -> str:

@@ -86,10 +86,14 @@ class Manoeuvre(Description, ABC):
         """Its kind, as case files write it."""
         return cls.model_fields["kind"].default
 
+    @classmethod
+    def title(cls) -> str:
+        """What a reader calls it: the title that it declares, else its kind in words."""
+        return cls.character.title or cls.name().replace("_", " ").capitalize()
+
     def declared(self) -> Character:
         """Its character, with its title and its begin."""
-        title = self.character.title or self.kind.replace("_", " ").capitalize()
-        return dataclasses.replace(self.character, title=title, begin=float(getattr(self, self.begins, 0.0)))
+        return dataclasses.replace(self.character, title=self.title(), begin=float(getattr(self, self.begins, 0.0)))
 
     def road_sweep(self) -> tuple[float, float] | None:
         """Frequencies [Hz] from and to which it sweeps the road under the wheels; None if it does not."""

@@ -83,6 +83,17 @@ def test_what_is_declared_is_complete(kind):
     assert ("tightened" in declared.traits) == (declared.average > 0)
 
 
+def test_a_script_is_titled_as_its_film():
+    from design.script import case_from_arguments
+
+    title = case_from_arguments("split_mu", ["--vehicle", "s_class", "--load", "ko"]).case.title
+    assert (
+        title
+        == f"{MANOEUVRES['split_mu']().declared().title}: s_class (load ko)"
+        == "Split friction: s_class (load ko)"
+    )
+
+
 def test_one_default_load_for_scripts_and_case_files():
     from design.case import usual_load
 
