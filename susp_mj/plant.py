@@ -25,6 +25,8 @@ from .meaning import Meaning, Output
 from .names import channel_name
 
 META = "susp_mj"
+STEP = 1e-3
+"""Step of a model's file, the longest that a run chooses by itself, and spacing of its records [s]."""
 
 
 @dataclass(frozen=True)

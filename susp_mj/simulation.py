@@ -14,13 +14,11 @@ from .errors import InputError
 from .handling.block import SIGNALS
 from .inputs import road_and_driver, sample_inputs
 from .manoeuvre import Manoeuvre
-from .plant import Plant
+from .plant import STEP, Plant
 from .recording import FIELDS, Diverged, as_run
 from .run import Run
 from .trim import Blocks, remembered, remind, trimmed
 
-STEP = 1e-3
-"""Longest integration step chosen by itself, and spacing of its records [s]."""
 FINEST = 20
 """Into how many steps a millisecond is cut at most without being asked."""
 COARSER = 2.0

@@ -19,8 +19,7 @@ from susp_mj.elements.law import ACTUATOR_HEADER, ACTUATOR_MARK, USERDATA_HEADER
 from susp_mj.handling.block import CAR_NUMERIC, SIGNALS
 from susp_mj.meaning import Input, Meaning, Output, TimeConstant, Travel
 from susp_mj.names import channel_name
-from susp_mj.plant import compiled
-from susp_mj.simulation import STEP
+from susp_mj.plant import STEP, compiled
 
 from ..complete import LoadedAxle
 
