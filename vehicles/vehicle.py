@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal, TypeVar
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
 from susp_mj.components import MotionRatio
-from susp_mj.description import Description, wrong
+from susp_mj.description import Description, input_error, wrong
 from susp_mj.elements import (
     GRAVITY,
     AntiRollBar,
@@ -23,14 +24,13 @@ from susp_mj.elements import (
     Kinematics,
     LinkageFriction,
     Powertrain,
-    Spring,
     Steering,
-    Tyre,
 )
 from susp_mj.errors import InputError, choices
 from susp_mj.units import Inertia, Length, Mass, PositiveLength
 
 AxleName = Literal["front", "rear"]
+Settled = TypeVar("Settled")
 DESIGN_LOAD = "ko"
 """Name of the load case of the design position (Konstruktionslage), which every vehicle has."""
 
@@ -191,21 +191,16 @@ class Vehicle(Description):
             there = [each for each in ("front", "rear") if getattr(self, each) is not None]
             raise InputError(f"{self.source} has no axle '{name}'; {choices(there)}", key="axle")
         corner = self.corner_mass(name, DESIGN_LOAD)
-        spring = self._settled(Spring.at_preload, axle.spring, corner * GRAVITY, f"{name}.spring")
+        spring = self._settled(axle.spring.at_preload, corner * GRAVITY, f"{name}.spring")
         tyre = axle.tyre
         if tyre is not None:
-            tyre = self._settled(
-                Tyre.at_static_load, tyre, (corner + (axle.unsprung_mass or 0.0)) * GRAVITY, f"{name}.tyre"
-            )
+            tyre = self._settled(tyre.at_static_load, (corner + (axle.unsprung_mass or 0.0)) * GRAVITY, f"{name}.tyre")
         return axle.model_copy(update={"spring": spring, "tyre": tyre})
 
-    def _settled(self, method: Any, element: Any, force: float, key: str) -> Any:
-        from pydantic import ValidationError
-
-        from susp_mj.description import input_error
-
+    def _settled(self, under: Callable[[float], Settled], force: float, key: str) -> Settled:
+        """An element under its design load, a wrong value of it named in the vehicle's file."""
         try:
-            return getattr(element, method.__name__)(force)
+            return under(force)
         except ValidationError as error:
             raise input_error(error, source=self.source, key=key) from None
 
