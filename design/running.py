@@ -18,14 +18,13 @@ from susp_mj.errors import InputError, SimulationError
 from susp_mj.linear import Linear, linearise
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.meaning import Input
-from susp_mj.names import AXLES, channel_name
-from susp_mj.plant import Plant
+from susp_mj.names import channel_name
+from susp_mj.plant import STEP, Plant
 from susp_mj.plugins import load_plugins
 from susp_mj.recording import Diverged
 from susp_mj.run import Run
-from susp_mj.simulation import MOST_STEPS, STEP, simulate
+from susp_mj.simulation import MOST_STEPS, simulate
 from vehicles.mjcf import build
-from vehicles.models import HANDLING
 from vehicles.reading import load_vehicle
 from vehicles.vehicle import Vehicle
 
@@ -237,10 +236,10 @@ def _configuration(prepared: Prepared, run: Run) -> Configuration:
     """A run with its numbers, characteristics, modes and exact amplifications."""
     job, vehicle = prepared.job, prepared.vehicle
     what = (job.setting.name, prepared.title, run, evaluate(run, job.numbers or tuple(NUMBERS)))
-    if job.model == HANDLING:
-        return Configuration(*what, [characteristic(f"{name} axle", vehicle.axle(name)) for name in AXLES])
     axles = dict.fromkeys(travel.key for travel in prepared.plant.meaning.travels)
     curves = [characteristic(f"{name} axle", vehicle.axle(name)) for name in axles]
+    if prepared.plant.car is not None:
+        return Configuration(*what, curves)
     plant = build(vehicle.without_friction(), job.model, prepared.plant.meaning.load, job.setting.axle)
     linear = linearise(plant)
     transfer = exact_transfer(linear, prepared.manoeuvre, plant.meaning.inputs)
