@@ -40,6 +40,8 @@ Workers = Annotated[
 Characteristics = Annotated[
     str | None, typer.Option("--characteristics", "-c", help="Which of the car's sets of characteristics.")
 ]
+Load = Annotated[str | None, typer.Option("--load", help="Load case; default: the design position.")]
+Axle = Annotated[str | None, typer.Option("--axle", help="front or rear, for models of one axle.")]
 
 
 @app.command()
@@ -119,14 +121,16 @@ def build(
     car: Annotated[str, typer.Argument(help="Shipped car or vehicle file.")],
     model: Annotated[str, typer.Option("--model", "-m", help="Topology, see 'susp-mj list'.")],
     characteristics: Characteristics = None,
-    load: Annotated[str, typer.Option(help="Load case.")] = "ko",
-    axle: Annotated[str | None, typer.Option(help="front or rear, for models of one axle.")] = None,
+    load: Load = None,
+    axle: Axle = None,
     out: Annotated[Path | None, typer.Option("--out", "-o", help="File to write; default CAR_MODEL.xml.")] = None,
 ) -> None:
     """Write a model as a self-contained MJCF file."""
     from vehicles.mjcf import write
     from vehicles.reading import load_vehicle
+    from vehicles.vehicle import DESIGN_LOAD
 
+    load = DESIGN_LOAD if load is None else load
     vehicle = load_vehicle(car, characteristics)
     folder = Path("vehicles/mjcf") if Path("vehicles/mjcf").is_dir() else Path()
     typer.echo(write(vehicle, model, out or folder / f"{vehicle.name}_{model}.xml", load, axle))
@@ -137,16 +141,18 @@ def modes(
     car: Annotated[str, typer.Argument(help="Shipped car or vehicle file.")],
     model: Annotated[str, typer.Option("--model", "-m", help="Topology, see 'susp-mj list'.")] = "full_7dof",
     characteristics: Characteristics = None,
-    load: Annotated[str, typer.Option(help="Load case.")] = "ko",
-    axle: Annotated[str | None, typer.Option(help="front or rear, for models of one axle.")] = None,
+    load: Load = None,
+    axle: Axle = None,
 ) -> None:
     """Natural frequencies, damping ratios and mode shapes at static equilibrium, friction left out."""
     from susp_mj.linear import linearise
     from vehicles.mjcf import build
     from vehicles.reading import load_vehicle
+    from vehicles.vehicle import DESIGN_LOAD
 
     from .terminal import print_modes
 
+    load = DESIGN_LOAD if load is None else load
     vehicle = load_vehicle(car, characteristics)
     title = ", ".join(part for part in (vehicle.title, vehicle.characteristics, model, f"load {load}") if part)
     print_modes(linearise(build(vehicle.without_friction(), model, load, axle)), title)
