@@ -91,8 +91,8 @@ class Film(Description):
         playback: seconds of the run per second of video.
     """
 
-    camera: Annotated[str, one_of(CAMERAS)] | None = None
-    layout: Annotated[str, one_of(LAYOUTS)] = "side_by_side"
+    camera: Annotated[str, one_of(CAMERAS)] | None = Style.camera
+    layout: Annotated[str, one_of(LAYOUTS)] = Style.layout
     quality: Annotated[str, one_of(QUALITIES)] | None = None
     playback: Annotated[float, Quantity("", gt=0)] | None = None
 

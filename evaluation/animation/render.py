@@ -35,9 +35,9 @@ def render_video(
     size: tuple[int, int] = (1280, 720),
     fps: int = 30,
     playback: float | None = None,
-    camera: str | None = None,
-    layout: str = "side_by_side",
-    quality: str = "fine",
+    camera: str | None = Style.camera,
+    layout: str = Style.layout,
+    quality: str = Style.quality,
     progress: Callable[[float], None] | None = None,
 ) -> Path:
     """Draw the runs into an MP4 file; it appears complete or not at all. Same runs, same file.
