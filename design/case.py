@@ -188,20 +188,20 @@ def with_film(case: Case, camera: str | None, *, ghost: bool, fine: bool) -> Cas
     return validate(Case, dict(case) | {"film": film}, source="video")
 
 
-def read_manoeuvre(table: Mapping[str, Any], source: str = "") -> Manoeuvre:
-    """A manoeuvre from its table.
+def read_manoeuvre(table: Mapping[str, Any], path: Path = Path()) -> Manoeuvre:
+    """A manoeuvre from its table in the file at `path`, beside which lies what it names.
 
     Raises:
         InputError: unknown kind, or a parameter that is wrong.
     """
-    kind = table.get("kind")
+    kind, source = table.get("kind"), path.name
     if not isinstance(kind, str):
         raise InputError(f"is required; {choices(MANOEUVRES)}", key="manoeuvre.kind", source=source)
     try:
         name = find_manoeuvre(kind)
     except InputError as error:
         raise error.within(key="manoeuvre", source=source) from None
-    manoeuvre = validate(MANOEUVRES[name], {**table, "kind": name}, source=source, key="manoeuvre")
+    manoeuvre = validate(MANOEUVRES[name], {**table, "kind": name}, source=source, key="manoeuvre", folder=path.parent)
     start = getattr(manoeuvre, "start", 0.0)
     if start >= manoeuvre.duration:
         text = f"{start:g} s is not allowed; the run ends after {manoeuvre.duration:g} s"

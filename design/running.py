@@ -106,7 +106,7 @@ def run_case(
         InputError: naming file, key and value; what is wrong in a file ends the work under way.
     """
     jobs = jobs_of(case, path)
-    _check_memory(case, path.name)
+    _check_memory(case, path)
     outcomes = side_by_side(
         jobs,
         prepare,
@@ -119,9 +119,9 @@ def run_case(
     return Comparison(case.title, case.description, outcomes, case.bands())
 
 
-def _check_memory(case: Case, source: str) -> None:
+def _check_memory(case: Case, path: Path) -> None:
     """Refuse records that memory does not hold: those of every configuration are kept until the results are written."""
-    duration, runs = read_manoeuvre(case.manoeuvre, source).duration, len(case.settings)
+    duration, runs = read_manoeuvre(case.manoeuvre, path).duration, len(case.settings)
     spacing = (case.step or STEP) * (case.record_every or 1)
     needed, free = runs * duration / spacing * RECORD, free_memory()
     if needed > free and duration / spacing <= MOST_STEPS:  # a longer one is refused by itself
@@ -129,7 +129,7 @@ def _check_memory(case: Case, source: str) -> None:
             f"{runs} runs of {duration:g} s with a record every {1000 * spacing:g} ms take {needed / 1e9:.3g} GB; "
             f"free are {free / 1e9:.3g} GB; a record every {1000 * spacing * needed / free:.3g} ms would do",
             key="record_every",
-            source=source,
+            source=path.name,
         )
 
 
@@ -167,7 +167,7 @@ def prepare(job: Job) -> Prepared:
 def _built(job: Job) -> Prepared:
     setting, name = job.setting, job.setting.vehicle
     load_plugins(job.plugins, job.path)
-    manoeuvre = read_manoeuvre(job.manoeuvre, job.path.name)
+    manoeuvre = read_manoeuvre(job.manoeuvre, job.path)
     vehicle = load_vehicle(
         job.path.parent / name if name.endswith(".toml") else name, setting.characteristics, setting.set
     )

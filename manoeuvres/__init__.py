@@ -22,6 +22,7 @@ from .lateral_force import LateralForce
 from .longitudinal_force import LongitudinalForce
 from .ramp_steer import RampSteer
 from .random_road import RandomRoad
+from .recorded_motion import RecordedMotion
 from .road_step import RoadStep
 from .roll_angle import RollAngle
 from .sine_steer import SineSteer
@@ -41,6 +42,7 @@ MANOEUVRES: dict[str, type[Manoeuvre]] = {
         VerticalSweep,
         UnevenRoad,
         RandomRoad,
+        RecordedMotion,
         LateralForce,
         LongitudinalForce,
         RollAngle,
@@ -114,6 +116,7 @@ __all__ = [
     "LongitudinalForce",
     "RampSteer",
     "RandomRoad",
+    "RecordedMotion",
     "RoadStep",
     "RollAngle",
     "SineSteer",

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from pathlib import Path
 from typing import Any, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError, ValidationInfo, model_validator
 from pydantic_core import PydanticCustomError
 
 from .errors import InputError, choices
@@ -32,6 +33,11 @@ class Description(BaseModel):
         return data
 
 
+def beside(name: str, info: ValidationInfo) -> Path:
+    """Path of a file that is named relative to the one being read; for use inside a validator."""
+    return ((info.context or {}).get("folder") or Path()) / name
+
+
 def left_out(kind: type) -> str:
     """Names of what a class leaves out that its base class asks for, in a row; empty if it is complete."""
     return ", ".join(sorted(getattr(kind, "__abstractmethods__", ())))
@@ -53,14 +59,16 @@ def one_of(names: Collection[str]) -> AfterValidator:
     return AfterValidator(known)
 
 
-def validate(kind: type[Described], data: Any, *, source: str = "", key: str = "") -> Described:
-    """Build `kind` from plain data.
+def validate(
+    kind: type[Described], data: Any, *, source: str = "", key: str = "", folder: Path | None = None
+) -> Described:
+    """Build `kind` from plain data; what it names by a relative path lies in `folder`, by default the working one.
 
     Raises:
         InputError: with the dotted path of the first offending value below `key`, in `source`.
     """
     try:
-        return kind.model_validate(data)
+        return kind.model_validate(data, context={"folder": folder})
     except ValidationError as error:
         raise input_error(error, source=source, key=key) from None
 

@@ -115,6 +115,14 @@ class Manoeuvre(Description, ABC):
         """Signals of the manoeuvre itself to keep with the run, by quantity; by default none."""
         return {}
 
+    def notes(self, places: Sequence[Input]) -> tuple[str, ...]:
+        """What a reader of its runs should know beyond its parameters, in phrases; by default nothing.
+
+        Args:
+            places: inputs of the plant.
+        """
+        return ()
+
     def check(self, places: Sequence[Input], model: str) -> None:
         """Refuse a plant that lacks an input.
 

@@ -6,6 +6,8 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from .names import channel_name
+
 
 @dataclass(frozen=True)
 class Input:
@@ -16,6 +18,7 @@ class Input:
         station: where, e.g. ``fl``; empty for the only wheel.
         x, y: position [m] in the vehicle frame, x measured from the front axle (rear axle negative).
         entries: (actuator, factor) pairs; the actuator's deflection gets factor times the input.
+        axle: ``front`` or ``rear`` of a wheel's, also where the station does not say so.
     """
 
     quantity: str
@@ -23,6 +26,12 @@ class Input:
     x: float
     y: float
     entries: tuple[tuple[str, float], ...]
+    axle: str = ""
+
+    @property
+    def on_tyre(self) -> bool:
+        """Whether a tyre stands between the road and the wheel; without one the wheel follows the road."""
+        return any(actuator == channel_name(self.station, "tyre") for actuator, _ in self.entries)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,8 @@ e.g. ``fl_wheel_load``; a model with one wheel drops the station: ``wheel_load``
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 CORNERS = ("fl", "fr", "rl", "rr")
 AXLES = ("front", "rear")
 
@@ -103,6 +105,34 @@ QUANTITIES: dict[str, tuple[str, str, str]] = {
     "contact_x": ("m", "body, x forward", "movement of the contact patch along the body from the design position"),
     "contact_y": ("m", "body, y left", "movement of the contact patch across the body from the design position"),
 }
+
+
+def axle_of(station: str) -> str:
+    """Axle of a wheel or an axle by its name; empty if the station does not say.
+
+    >>> axle_of("fl"), axle_of("rear"), axle_of("")
+    ('front', 'rear', '')
+    """
+    return station if station in AXLES else next((axle for axle in AXLES if station in wheels_of(axle)), "")
+
+
+def wheels_of(axle: str) -> tuple[str, ...]:
+    """Left and right wheel of an axle."""
+    return tuple(corner for corner in CORNERS if corner[0] == axle[0])
+
+
+def stand_ins(station: str, offered: Collection[str]) -> tuple[str, ...]:
+    """The stations whose mean stands for one: itself, its axle, both its wheels, or the one for all (``""``).
+
+    >>> stand_ins("fl", ("front", "rear")), stand_ins("rear", ("rl", "rr")), stand_ins("fl", ("rl", "rr"))
+    (('front',), ('rl', 'rr'), ())
+    """
+    axle = axle_of(station)
+    pair = wheels_of(axle) if station in AXLES else ()
+    for group in ((station,), (axle,) if axle else (), pair, ("",)):
+        if group and all(each in offered for each in group):
+            return group
+    return ()
 
 
 def channel_name(station: str, quantity: str) -> str:

@@ -108,11 +108,21 @@ def _meta(plant: Plant, manoeuvre: Manoeuvre, step: float, road: Road | None) ->
         "travel": {t.station: [t.rebound, t.compression] for t in meaning.travels},
         "facts": dict(meaning.facts),
         "places": {place.station: [place.x, place.y] for place in meaning.inputs if place.quantity == "road_height"},
+        "axles": {place.station: place.axle for place in meaning.inputs if place.quantity == "road_height"},
+        "notes": _notes(plant, manoeuvre),
         "step": step,
         "integrator": "RK4",
         "versions": dict(versions()),
         **({} if road is None else {"road": {"features": as_json(road.shown)}}),
     }
+
+
+def _notes(plant: Plant, manoeuvre: Manoeuvre) -> list[str]:
+    """What the manoeuvre says beyond its parameters."""
+    given: Any = manoeuvre.notes(plant.meaning.inputs)
+    if not isinstance(given, (list, tuple)) or not all(isinstance(each, str) for each in given):
+        raise wrong_answer(manoeuvre.notes, short(given), "a tuple of texts")
+    return list(given)
 
 
 def _car(plant: Plant) -> Car:

@@ -71,7 +71,7 @@ GLOSSARY = (
     ("dashed line", "in a plot: lies on the line of an earlier configuration"),
     ("1:2", "compression to rebound ratio of a damper: rebound has twice the rate"),
 )
-_SETTINGS: tuple[str, ...] = ("manoeuvre", "masses", "integration", "versions")
+_SETTINGS: tuple[str, ...] = ("manoeuvre", "beyond it", "masses", "integration", "versions")
 
 
 def elements_used(comparison: Comparison) -> list[dict[str, Any]]:
@@ -122,6 +122,8 @@ def _run_settings(meta: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         "manoeuvre",
         f"{kind}, SI units: " + ", ".join(f"{key} {_plain_text(value)}" for key, value in manoeuvre.items()),
     )
+    if meta.get("notes"):
+        yield "beyond it", "; ".join(meta["notes"])
     if meta.get("facts"):
         masses = {key.replace("_", " "): value for key, value in meta["facts"].items() if "mass" in key}
         yield "masses", ", ".join(f"{name} {_plain_text(value)} kg" for name, value in masses.items())

@@ -27,7 +27,11 @@ def free_motion(
     roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
     p, q, r = qvel[:, 3:6].T
     turning = q * np.sin(roll) + r * np.cos(roll)
-    yaw_rate = turning / np.cos(pitch)
+    yaw_rate, pitch_rate = turning / np.cos(pitch), q * np.cos(roll) - r * np.sin(roll)
+    roll_rate = p + yaw_rate * np.sin(pitch)
+    p_rate, q_rate, r_rate = qacc[:, 3:6].T
+    turning_rate = q_rate * np.sin(roll) + r_rate * np.cos(roll) + roll_rate * pitch_rate
+    yaw_acceleration = (turning_rate + yaw_rate * pitch_rate * np.sin(pitch)) / np.cos(pitch)
     along, across = _in_heading(qvel[:, :2], yaw)
     ahead, left = _in_heading(qacc[:, :2], yaw)
     # velocity of the point on the ground below the middle of the rear axle, in body axes and then in the heading
@@ -44,8 +48,10 @@ def free_motion(
         "pitch_angle": pitch,
         "roll_angle": roll,
         "yaw_rate": yaw_rate,
-        "pitch_rate": q * np.cos(roll) - r * np.sin(roll),
-        "roll_rate": p + yaw_rate * np.sin(pitch),
+        "pitch_rate": pitch_rate,
+        "roll_rate": roll_rate,
+        "pitch_acceleration": q_rate * np.cos(roll) - r_rate * np.sin(roll) - roll_rate * turning,
+        "roll_acceleration": p_rate + yaw_acceleration * np.sin(pitch) + yaw_rate * pitch_rate * np.cos(pitch),
         "speed": np.hypot(along, across),
         "longitudinal_velocity": along,
         "lateral_velocity": across,

@@ -124,7 +124,7 @@ def test_models_that_scripts_take_by_themselves():
 def test_shipped_cases_are_understood(name):
     case, path = load_case(name)
     assert case.model == "handling"
-    read_manoeuvre(case.manoeuvre, path.name)
+    read_manoeuvre(case.manoeuvre, path)
 
 
 def test_every_driving_manoeuvre_has_a_case():

@@ -104,7 +104,7 @@ def _wheel(builder: ModelBuilder, car: CompleteCar, station: str) -> Wheel:
     axle, x = (car.front, 0.0) if station[0] == "f" else (car.rear, -car.wheelbase)
     side, partner, mounted = (1, "r", "LEFT") if station[1] == "l" else (-1, "l", "RIGHT")
     y = side * axle.track / 2
-    road = builder.wheel_station(station, x, y)
+    road = builder.wheel_station(station, x, y, axle.name)
     corner = Corner(station, x - car.body.cg[0], y - car.body.cg[1], side, axle, road, station[0] + partner)
     return Wheel(corner, axle, axle.handling_tyre.mounted(mounted))
 

@@ -112,7 +112,7 @@ def _corners(builder: ModelBuilder, car: LoadedCar, topology: Topology, mass: Ma
         half_track = axle.required("track", "models with two sides") / 2 if topology.sides == 2 else 0.0
         for station, side in sides.items():
             y = side * half_track
-            road = builder.wheel_station(station, x, y)
+            road = builder.wheel_station(station, x, y, axle.name)
             partner = next((other for other in sides if other != station), None)
             corners.append(Corner(station, x - mass.x, y - mass.y, side, axle, road, partner))
     return corners

@@ -103,7 +103,7 @@ class ModelBuilder:
         option = self.spec.option
         option.timestep, option.integrator, option.gravity = STEP, mujoco.mjtIntegrator.mjINT_RK4, [0, 0, -GRAVITY]
         option.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-        self.places: dict[str, tuple[float, float]] = {}
+        self.places: dict[str, tuple[float, float, str]] = {}
         self.outputs: list[Output] = []
         self.travels: list[Travel] = []
         self.time_constants: list[TimeConstant] = []
@@ -122,9 +122,9 @@ class ModelBuilder:
         """A massless, contactless shape, so that the file shows a car in any MuJoCo viewer."""
         body.add_geom(type=shape, size=size, rgba=colour, mass=0.0, contype=0, conaffinity=0, **place)
 
-    def wheel_station(self, station: str, x: float, y: float) -> Form:
-        """Declare a wheel at a place [m], x from the front axle; returns the road height under it."""
-        self.places[station] = (x, y)
+    def wheel_station(self, station: str, x: float, y: float, axle: str) -> Form:
+        """Declare a wheel of an axle at a place [m], x from the front axle; returns the road height under it."""
+        self.places[station] = (x, y, axle)
         self._entries.setdefault(("road_height", station), [])
         return Form({}, {station: 1.0})
 
@@ -252,8 +252,9 @@ class ModelBuilder:
             self.spec.nuserdata += len(SIGNALS)
             self.spec.add_numeric(name=CAR_NUMERIC, data=self._car(compiled(self.spec, self.source)))
         inputs = [
-            Input(quantity, station, *self.places.get(station, (0.0, 0.0)), tuple(entries))
+            Input(quantity, station, x, y, tuple(entries), axle)
             for (quantity, station), entries in self._entries.items()
+            for x, y, axle in [self.places.get(station, (0.0, 0.0, ""))]
         ]
         return self.spec, Meaning(
             source=self.source,
