@@ -11,6 +11,7 @@ from pydantic import AfterValidator, Field, model_validator
 from evaluation.animation.cameras import CAMERAS
 from evaluation.animation.style import LAYOUTS, QUALITIES, Style
 from evaluation.numbers import NUMBERS, Criterion
+from evaluation.validation import Validation
 from manoeuvres import MANOEUVRES, find_manoeuvre
 from susp_mj.description import Description, one_of, validate, wrong
 from susp_mj.errors import InputError, choices
@@ -110,6 +111,7 @@ class Case(Description):
         step: integration step [s]; by default 1 ms or what the dampers' mounts need.
         record_every: keep every n-th step; by default one a millisecond.
         film: how a video is drawn.
+        validation: how `susp-mj validate` compares measurements with it.
         plugins: Python files that bring elements, manoeuvres, numbers or cameras; relative to the case file.
     """
 
@@ -123,6 +125,7 @@ class Case(Description):
     step: Annotated[float, Quantity("s", gt=0)] | None = None
     record_every: int | None = Field(default=None, ge=1)
     film: Film = Film()
+    validation: Validation = Validation()
     plugins: tuple[str, ...] = ()
 
     @model_validator(mode="after")

@@ -1,5 +1,5 @@
-"""The command line: `susp-mj`. Exit codes: 0 done, 1 a configuration without a run, criteria or claims not met, 2 bad
-input."""
+"""The command line: `susp-mj`. Exit codes: 0 done, 1 a configuration without a run, criteria or claims not met, a run
+outside of what was measured, 2 bad input."""
 
 from __future__ import annotations
 
@@ -87,6 +87,37 @@ def run(
     loaded, path = load_case(case)
     loaded = with_film(loaded, camera, ghost=ghost, fine=fine)
     _run(loaded, path, out or Path("out") / path.stem, video=video, strict=strict, workers=workers)
+
+
+@app.command()
+def validate(
+    case: Annotated[str, typer.Argument(help="Case file, or the name of a shipped case ('susp-mj list').")],
+    measurement: Annotated[
+        list[Path], typer.Argument(help="CSV with units, NetCDF or MDF4; several are several test runs.")
+    ],
+    mapping: Annotated[
+        Path | None, typer.Option("--map", help="TOML file with the table [validation], instead of the case's.")
+    ] = None,
+    configuration: Annotated[
+        str | None, typer.Option("--configuration", "-c", help="Which of the case's; default its only one.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", help="Folder for the results; default out/CASE_validation.")
+    ] = None,
+) -> None:
+    """Hold measurements against a run: errors, band of tolerance, inside (exit code 0) or outside (1)."""
+    from .case import load_case
+    from .terminal import print_findings
+    from .validate import asked, validated
+
+    loaded, path = load_case(case)
+    folder = out or Path("out") / f"{path.stem}_validation"
+    with _progress() as progress:
+        findings = validated(asked(loaded, path, mapping, configuration), measurement, folder, progress)
+    print_findings(findings, loaded.title)
+    typer.echo(f"results in {folder}: validation.html, validation.json, run.nc, plots/")
+    if not findings.inside:
+        raise typer.Exit(1)
 
 
 @app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []})

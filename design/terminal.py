@@ -19,6 +19,7 @@ from evaluation.numbers.number import Number, Verdict
 if TYPE_CHECKING:
     from evaluation.characteristics import Characteristic
     from evaluation.compare import Comparison
+    from evaluation.validation import Findings
     from susp_mj.linear import Linear, Mode
     from vehicles.reading import VehicleFile
 
@@ -44,6 +45,9 @@ def print_comparison(comparison: Comparison) -> None:
         failed = [_missed(name, verdict) for name, verdict in found.items() if not verdict.passed]
         if found:
             console.print(f"{each.name}: " + (f"fails {', '.join(failed)}" if failed else "meets all criteria"))
+    for each in comparison.configurations:
+        for note in each.run.meta.get("notes", ()):
+            console.print(Text(f"{each.name}: {note}", "dim"))
     for each in comparison.failures:
         console.print(Text(f"{each.name}: no run, {each.reason}", "bold red"))
 
@@ -62,6 +66,22 @@ def _print_turning(comparison: Comparison, console: Console) -> None:
     for row in turning.rows:
         table.add_row(*row)
     console.print(table)
+
+
+def print_findings(findings: Findings, title: str) -> None:
+    """What a comparison with measurements found, a row for each channel."""
+    from evaluation.validation.table import HEADINGS, remarks, rows
+
+    table = Table(title=f"{title}, beside measurements", box=SIMPLE_HEAD, title_justify="left")
+    for heading in HEADINGS:
+        table.add_column(heading, justify="left" if heading in ("channel", "") else "right")
+    for row in rows(findings):
+        *cells, word = row.cells
+        table.add_row(*cells, Text(word, "green" if row.inside else "bold red"))
+    console = _console()
+    console.print(table)
+    for word, text in remarks(findings):
+        console.print(Text(f"{word}: {text}"))
 
 
 def print_claims(comparison: Comparison) -> None:

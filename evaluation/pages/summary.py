@@ -33,7 +33,16 @@ def write_summary(comparison: Comparison, path: str | Path, extra: Mapping[str, 
         "passed": comparison.passed,
         **(extra or {}),
     }
-    return write_text(path, json.dumps(_plain(summary), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    return write_json(summary, path)
+
+
+def write_json(value: Any, path: str | Path) -> Path:
+    """Write a value as strict JSON; what is not finite becomes null.
+
+    Raises:
+        InputError: the place cannot be written.
+    """
+    return write_text(path, json.dumps(_plain(value), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
 
 
 def _plain(value: Any) -> Any:
