@@ -20,6 +20,7 @@ from susp_mj.plugins import blamed
 
 if TYPE_CHECKING:
     from .case import Case
+    from .cycle.cycling import Branch
     from .running import Report
 
 app = typer.Typer(
@@ -118,6 +119,62 @@ def validate(
     typer.echo(f"results in {folder}: validation.html, validation.json, run.nc, plots/")
     if not findings.inside:
         raise typer.Exit(1)
+
+
+@app.command()
+def design(
+    targets: Annotated[str, typer.Argument(help="Targets file, or the name of a shipped one ('susp-mj list').")],
+    out: Annotated[Path | None, typer.Option("--out", "-o", help="Results; default out/TARGETS.")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with the runs that are in the folder.")] = False,
+    branch: Annotated[
+        str | None, typer.Option("--from", help="Go on from this candidate of the folder, with --change.")
+    ] = None,
+    change: Annotated[
+        list[str] | None, typer.Option("--change", help="KNOB=VALUE for --from, e.g. front.rebound_rate='32 N/mm'.")
+    ] = None,
+    video: Annotated[
+        bool, typer.Option("--video", help="Also film the last discarded car as a ghost beside the kept one.")
+    ] = False,
+    workers: Workers = None,
+) -> None:
+    """Lay out springs, dampers and bars from targets: candidates, reasons, repairs, verdict."""
+    from .cycle.output import lay_out
+    from .cycle.targets import load_targets
+    from .terminal import CyclePrinter, print_story
+
+    loaded, path = load_targets(targets)
+    if video:
+        _require_video()
+    _without_log()
+    printer, folder = CyclePrinter(), out or Path("out") / path.stem
+    with _progress() as progress:
+        story = lay_out(
+            loaded,
+            path,
+            folder,
+            resume=resume,
+            branch=_branch(branch, change or []),
+            video=video,
+            workers=workers,
+            heard=lambda candidate, finding: printer(candidate.name, candidate.because, finding),
+            progress=progress,
+        )
+    print_story(story)
+    typer.echo(f"results in {folder}: verdict.html, verdict.json, {story.made['vehicle']}, cases/, runs/")
+    if story.kept is None:
+        raise typer.Exit(1)
+
+
+def _branch(parent: str | None, changes: Sequence[str]) -> Branch | None:
+    """A branch as the command line asks for it."""
+    from .cycle.cycling import Branch
+    from .cycle.targets import knobs_from_texts
+
+    if parent is None:
+        if changes:
+            raise InputError("needs --from, the candidate that is changed", key="--change")
+        return None
+    return Branch(parent, knobs_from_texts(changes))
 
 
 @app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True, "help_option_names": []})
@@ -250,14 +307,10 @@ def _drive(manoeuvre: str, arguments: Sequence[str]) -> None:
 
 
 def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool = False, workers: int | None = None) -> None:
-    import mujoco
-
     from .results import carry_out
     from .terminal import print_comparison
 
-    mujoco.set_mju_user_warning(
-        lambda _: None
-    )  # else a file MUJOCO_LOG.TXT in this folder; what it says ends a run in one line
+    _without_log()
     if video:
         _require_video()
     with _progress() as progress:
@@ -266,6 +319,13 @@ def _run(case: Case, path: Path, out: Path, *, video: bool, strict: bool = False
     _say_where(out)
     if comparison.failures or (strict and not comparison.passed):
         raise typer.Exit(1)
+
+
+def _without_log() -> None:
+    """Else MuJoCo writes a file MUJOCO_LOG.TXT into this folder; what it says ends a run in one line."""
+    import mujoco
+
+    mujoco.set_mju_user_warning(lambda _: None)
 
 
 def _guarded(command: Callable[[], object]) -> None:

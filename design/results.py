@@ -91,10 +91,18 @@ def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float
     progress("write results", 1.0)
 
 
+MARKER = "summary.json"
+RESULTS = (MARKER, "report.html", "video.mp4", "runs/*.nc", "plots/*.svg")
+
+
 @contextmanager
-def staged(out: Path) -> Iterator[Path]:
+def staged(out: Path, marker: str = MARKER, patterns: Sequence[str] = RESULTS) -> Iterator[Path]:
     """A folder to write into; on success its contents replace earlier results in `out`, on any error nothing of it
     remains.
+
+    Args:
+        marker: file by which earlier results are known.
+        patterns: of their files, which are taken away.
 
     Raises:
         InputError: `out` cannot be written.
@@ -109,7 +117,7 @@ def staged(out: Path) -> Iterator[Path]:
         except OSError as error:
             raise InputError(f"cannot be written: {error.strerror}", source=str(out)) from None
         yield stage
-        _clear(out)
+        _clear(out, marker, patterns)
         for item in sorted(stage.rglob("*")):
             if item.is_file():
                 target = out / item.relative_to(stage)
@@ -128,9 +136,9 @@ def staged(out: Path) -> Iterator[Path]:
                 folder.rmdir()
 
 
-def _clear(out: Path) -> None:
+def _clear(out: Path, marker: str, patterns: Sequence[str]) -> None:
     """Take the results of an earlier run away, and nothing else."""
-    if (out / "summary.json").is_file():
-        for pattern in ("summary.json", "report.html", "video.mp4", "runs/*.nc", "plots/*.svg"):
+    if (out / marker).is_file():
+        for pattern in patterns:
             for file in out.glob(pattern):
                 file.unlink()

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from evaluation.characteristics import Characteristic
     from evaluation.compare import Comparison
     from evaluation.validation import Findings
+    from evaluation.story import Finding, Story
     from susp_mj.linear import Linear, Mode
     from vehicles.reading import VehicleFile
 
@@ -82,6 +83,61 @@ def print_findings(findings: Findings, title: str) -> None:
     console.print(table)
     for word, text in remarks(findings):
         console.print(Text(f"{word}: {text}"))
+
+
+class CyclePrinter:
+    """Tells a design cycle while it goes on: each candidate, and every step with formula, inputs, result and
+    verdict."""
+
+    def __init__(self) -> None:
+        self._last, self._console = "", _console()
+
+    def __call__(self, name: str, because: str, finding: Finding) -> None:
+        """One finding of a candidate."""
+        if name != self._last:
+            self._last = name
+            self._console.print(Text(f"\n{name}: {because}", "bold"))
+        mark = Text("  ok  ", "green") if finding.passed else Text("  NO  ", "bold red")
+        result = quantity_text(finding.value, finding.unit) + (f" ({finding.note})" if finding.note else "")
+        line = [mark, f"{finding.key}: {result}, asked is {finding.band}"]
+        if finding.assumed:
+            line.append(" by default")
+        inputs = ", ".join(f"{key} = {text}" for key, text in finding.inputs.items())
+        source = "; ".join(part for part in (finding.formula, inputs) if part)
+        self._console.print(Text.assemble(*line, (f"  [{source}]" if source else "", "dim")))
+
+
+def print_story(story: Story) -> None:
+    """How a cycle ended: candidates and reasons, what moves what was missed, the kept knobs, the verdict."""
+    console = _console()
+    for attempt in story.attempts:
+        console.print(Text(f"\n{attempt.name}: {'kept' if attempt.kept else 'discarded'}", "bold"), end="")
+        console.print(Text("" if attempt.kept else f", {attempt.reason}"))
+        for each in attempt.influences:
+            also = "; ".join(f"{key} {_signed(*moved)}" for key, moved in each.also.items())
+            words = f"  {each.knob} {each.change}: {each.target} {_signed(each.moved, each.unit)}"
+            console.print(Text(words + (f"; {also}" if also else ""), "dim"))
+    if story.kept is not None:
+        table = Table(title=f"Kept: {story.kept.name}", box=SIMPLE_HEAD, title_justify="left")
+        table.add_column("knob")
+        table.add_column("value", justify="right")
+        for knob, (value, unit) in story.kept.values.items():
+            table.add_row(knob, value if isinstance(value, str) else quantity_text(value, unit))
+        console.print(table)
+    for trade in story.trade_offs:
+        values = ", ".join(
+            f"{ratio}: {quantity_text(value, trade.unit)}"
+            for ratio, value in zip(trade.ratios, trade.values, strict=True)
+        )
+        console.print(Text(f"{trade.title}, over compression:rebound: {values}"))
+    for note in story.notes:
+        console.print(Text(note, "dim"))
+    console.print(Text(f"\n{story.verdict}", "bold green" if story.kept is not None else "bold red"))
+
+
+def _signed(value: float, unit: str) -> str:
+    text = quantity_text(value, unit)
+    return text if text.startswith("−") else f"+{text}"
 
 
 def print_claims(comparison: Comparison) -> None:

@@ -50,6 +50,8 @@ _UNITS: dict[str, tuple[float, tuple[int, int, int, int]]] = {
     "W": (1.0, (2, 1, -3, 0)),
     "kW": (1e3, (2, 1, -3, 0)),
 }
+GRAVITY = 9.81
+"""[m/s²]; the value of the thesis."""
 LARGEST = 1e15
 """Largest magnitude of any quantity, in SI units."""
 _SUPERSCRIPT = str.maketrans({"²": "^2", "³": "^3", "·": " ", "*": " ", "−": "-"})

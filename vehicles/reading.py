@@ -86,7 +86,7 @@ class VehicleFile:
         tables = deepcopy({**self.tables})
         _merge(tables, deepcopy({key: value for key, value in self.sets.get(chosen, {}).items() if key != "title"}))
         for key, value in (overrides or {}).items():
-            _override(tables, key, value, source)
+            override(tables, key, value, source)
         for reserved in ("name", "source"):
             if reserved in tables:
                 raise InputError("unknown key; a car is named by its file", key=reserved, source=source)
@@ -140,7 +140,7 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError(f"is not TOML: {error}", source=path.name) from None
 
 
-def _override(tables: dict[str, Any], path: str, value: Any, source: str) -> None:
+def override(tables: dict[str, Any], path: str, value: Any, source: str) -> None:
     """Put `value` at a dotted path into nested tables, making tables on the way; a number addresses a list's item.
 
     Raises:

@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
+from susp_mj.roll import bar_rate, required_roll_stiffness
 from susp_mj.run import Run
 
 from .number import Answer, Measure, Runs, no_question
 from .runs import NOT_ON_RIG, drives, facts, is_a, known, on_rig, parameter, recorded
 from .turns import FIT, TIGHTENED, followed, tightening
 
-GRAVITY = 9.81
 _LAST = 0.5  # s; a car that drives freely is held in a turn if nothing changes for this long
 
 
@@ -91,32 +91,6 @@ def anti_roll_bar_front(run: Run) -> Answer:
 def anti_roll_bar_rear(run: Run) -> Answer:
     """Rate of the rear anti-roll bar that the required roll flexibility and distribution need, at the wheel [N/m]."""
     return _bar(run, "rear")
-
-
-def required_roll_stiffness(lever: float, lateral_acceleration: float, angle: float, gravity: float = GRAVITY) -> float:
-    """Roll stiffness ``K = m h (a_y + g phi)/phi`` [N m/rad] for the roll angle phi at the lateral acceleration a_y.
-
-    Args:
-        lever: m h [kg m], h the height of the centre of gravity above the roll axis.
-        lateral_acceleration: a_y [m/s²].
-        angle: phi [rad].
-        gravity: 0 leaves the overturning of the rolled body out.
-
-    Source: thesis appendix 9; the gravity term is reconstructed.
-    """
-    return lever * (lateral_acceleration + gravity * angle) / angle
-
-
-def bar_rate(roll_stiffness: float, share: float, track: float, spring_rate: float) -> float:
-    """Bar rate at the wheel [N/m] that completes an axle: ``c = K share 2/t² - k``; negative if the springs exceed it.
-
-    Args:
-        roll_stiffness: K of the whole car [N m/rad].
-        share: of this axle.
-        track: t [m].
-        spring_rate: secant rate k of one wheel's spring over the roll [N/m].
-    """
-    return roll_stiffness * share * 2 / track**2 - spring_rate
 
 
 def _bar(run: Run, axle: str) -> Answer:

@@ -14,12 +14,10 @@ from numpy.typing import ArrayLike
 from pydantic import Field, model_validator
 
 from ..description import wrong
-from ..units import NaturalFrequency, NonNegativeForce, PositiveForce, Quantity, Stiffness
+from ..units import GRAVITY, NaturalFrequency, NonNegativeForce, PositiveForce, Quantity, Stiffness
 from .element import FloatArray, ForceElement, chosen_from
 from .law import Law, Parameters
 from .stops import Stops
-
-GRAVITY = 9.81
 
 
 def linear_force(deflection: float, speed: float, state: float, p: Parameters) -> float:

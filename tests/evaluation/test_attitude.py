@@ -8,9 +8,9 @@ import math
 import numpy as np
 import pytest
 
-from evaluation.numbers import NUMBERS, attitude
+from evaluation.numbers import NUMBERS
 from manoeuvres import LateralForce, RollAngle
-from susp_mj import simulate
+from susp_mj import roll, simulate
 from vehicles import load_vehicle
 from vehicles.mjcf import build
 
@@ -21,9 +21,9 @@ TIME = np.linspace(0.0, 1.0, 101)
 
 def test_thesis_bars_close_the_thesis_numbers():
     """1913 kg, 0.5459 m, 7 m/s², 5°, 60:40 with springs of 26 000.6 and 19 804.1 N/m: 25 286 and 14 387 N/m."""
-    stiffness = attitude.required_roll_stiffness(1913 * 0.5459, 7.0, math.radians(5.0), gravity=0.0)
-    assert attitude.bar_rate(stiffness, 0.6, 1.4, 26000.6) == pytest.approx(25286, rel=1e-4)
-    assert attitude.bar_rate(stiffness, 0.4, 1.4, 19804.1) == pytest.approx(14387, rel=1e-4)
+    stiffness = roll.required_roll_stiffness(1913 * 0.5459, 7.0, math.radians(5.0), gravity=0.0)
+    assert roll.bar_rate(stiffness, 0.6, 1.4, 26000.6) == pytest.approx(25286, rel=1e-4)
+    assert roll.bar_rate(stiffness, 0.4, 1.4, 19804.1) == pytest.approx(14387, rel=1e-4)
 
 
 @pytest.mark.parametrize(("name", "front", "rear"), [("configuration_3", 25286, 14387), ("configuration_4", 7118, 0)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -51,7 +52,7 @@ class TyreFile(Description):
             InputError: in the tyre property file.
         """
         try:
-            tyre = load_tyre(self.file, inflation_pressure=self.inflation_pressure)
+            tyre = _loaded(self.file, _changed(self.file), self.inflation_pressure)
         except InputError as error:
             if error.key == "inflation_pressure":  # stands here, not in the tyre property file
                 raise wrong(error.message, "inflation_pressure") from None
@@ -59,8 +60,24 @@ class TyreFile(Description):
         if self.kind not in ("magic_formula", tyre.kind):
             raise wrong(f"{self.file.name} is of another version; write kind = 'magic_formula'", "kind")
         own = self.model_dump(include={"vertical_stiffness", "vertical_damping"}, exclude_none=True)
+        if not own and not self.scaling:
+            return tyre
         data = tyre.model_dump()
         return type(tyre).model_validate({**data, **own, "scaling": {**data["scaling"], **self.scaling}})
+
+
+@lru_cache(maxsize=32)
+def _loaded(file: Path, changed: int, inflation_pressure: float | None) -> MagicFormula:
+    """The tyre of a file, which is read again only when it has changed."""
+    return load_tyre(file, inflation_pressure=inflation_pressure)
+
+
+def _changed(file: Path) -> int:
+    """When a file was last written [ns]; 0 where that is not known, reading it then says why."""
+    try:
+        return file.stat().st_mtime_ns
+    except OSError:
+        return 0
 
 
 def _chosen(data: Any) -> Any:

@@ -1,0 +1,1 @@
+"""The design cycle: targets in, candidates tried and repaired, the kept springs, dampers and bars out."""

@@ -1,0 +1,184 @@
+"""Files of a cycle: the car's own with the candidates as further sets, and cases that hold the kept one against its
+targets again."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+
+from evaluation.display import quantity_text
+from evaluation.story import Finding
+from susp_mj.errors import SuspMjError
+from susp_mj.files import write_text
+from susp_mj.names import AXLES
+from vehicles.reading import VehicleFile, override
+
+from ..case import file_name
+from .candidate import Candidate, Layout
+from .characteristics import ONE_MASS
+from .checks import axles_of
+from .cycling import Outcome
+
+PARTS = ("spring", "damper", "anti_roll_bar")
+"""Of an axle, what a set of characteristics holds."""
+
+
+def write_car(layout: Layout, outcomes: Sequence[Outcome], folder: Path) -> Path:
+    """The vehicle file of the cycle: every candidate a set of its own name, the kept or else the last one the default.
+
+    Comments and sources of the file stay; a tyre file that lies beside it is copied.
+
+    Raises:
+        SuspMjError: a set that is read back is not the candidate; that would be a fault of this program.
+    """
+    document = tomlkit.parse(layout.file.path.read_text(encoding="utf-8"))
+    for path, value in layout.targets.set.items():
+        override(document, path, value, layout.path.name)
+    possible = [each for each in outcomes if all(finding.target != "possible" for finding in each.findings)]
+    chosen = next((each for each in possible if each.kept), possible[-1] if possible else None)
+    sets = document.setdefault("characteristics", tomlkit.table(is_super_table=True))
+    for outcome in possible:
+        sets[set_name(outcome.candidate)] = _set(layout, outcome)
+    if chosen is not None:
+        _set_default(document, set_name(chosen.candidate))
+    if "sources" in document:
+        for outcome in possible:
+            key = f"characteristics.{set_name(outcome.candidate)}"
+            document["sources"][key] = f"estimated: laid out by susp_mj from {layout.path.name}"
+    _copy_beside(layout.file, document, folder)
+    path = write_text(folder / layout.file.path.name, tomlkit.dumps(document))
+    _check(layout, possible, path)
+    return path
+
+
+def set_name(candidate: Candidate) -> str:
+    """Name of a candidate's set of characteristics."""
+    return file_name(candidate.name).replace(".", "_")
+
+
+def _set(layout: Layout, outcome: Outcome) -> dict[str, Any]:
+    car = layout.vehicle(outcome.candidate)
+    table: dict[str, Any] = {"title": f"{'kept' if outcome.kept else 'discarded'}: {outcome.candidate.because}"}
+    for name in AXLES:
+        axle = getattr(car, name)
+        parts = {part: getattr(axle, part) for part in PARTS}
+        table[name] = {
+            part: value.model_dump(mode="json", exclude_none=True) for part, value in parts.items() if value is not None
+        }
+    return table
+
+
+def _set_default(document: tomlkit.TOMLDocument, name: str) -> None:
+    """Set `default`, above the first table if it is new."""
+    if "default" in document:
+        document["default"] = name
+        return
+    text = tomlkit.dumps(document)
+    document.clear()
+    document.update(tomlkit.parse(f'default = "{name}"\n{text}'))
+
+
+def _copy_beside(file: VehicleFile, document: tomlkit.TOMLDocument, folder: Path) -> None:
+    """Copy what the file names beside itself: tyre files and plugins."""
+    tyres = [document.get(axle, {}).get("handling_tyre", {}).get("file") for axle in AXLES]
+    for name in (*tyres, *document.get("plugins", ())):
+        source = file.path.parent / str(name)
+        if name and source.is_file():
+            target = folder / str(name)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, target)
+
+
+def _check(layout: Layout, outcomes: Sequence[Outcome], path: Path) -> None:
+    """Refuse a file whose sets are not the candidates, but for the progress of names."""
+    written = VehicleFile.open(path)
+    for outcome in outcomes:
+        wanted, found = layout.vehicle(outcome.candidate), written.vehicle(set_name(outcome.candidate))
+        for name in AXLES:
+            for part in PARTS:
+                if getattr(getattr(wanted, name), part) != getattr(getattr(found, name), part):
+                    raise SuspMjError(f"{path}: {name}.{part} of {outcome.candidate.name} was not written as it is")
+
+
+def write_cases(layout: Layout, kept: Outcome, car: Path, folder: Path) -> list[Path]:
+    """A case for every check, for every step of the road and for the roll, with the targets as criteria."""
+    cases = [*_step_cases(layout, kept, car), *_roll_case(layout, kept, car), *_check_cases(layout, kept, car)]
+    return [write_text(folder / f"{file_name(case['title'])}.toml", tomlkit.dumps(case)) for case in cases]
+
+
+def _case(layout: Layout, title: str, model: str, manoeuvre: dict[str, Any]) -> dict[str, Any]:
+    description = f"Target of {layout.path.name}, held against the kept characteristics."
+    case: dict[str, Any] = {"title": title, "description": description, "model": model}
+    if layout.targets.plugins:
+        case["plugins"] = [str((layout.path.parent / each).resolve()) for each in layout.targets.plugins]
+    return {**case, "manoeuvre": manoeuvre}
+
+
+def _configurations(kept: Outcome, car: Path, places: Sequence[tuple[str, str | None]]) -> list[dict[str, Any]]:
+    characteristics = set_name(kept.candidate)
+    return [
+        {
+            "name": f"{kept.candidate.name}, {axle} axle, {load}" if axle else f"{kept.candidate.name}, {load}",
+            "vehicle": f"../{car.name}",
+            "characteristics": characteristics,
+            "load": load,
+            **({"axle": axle} if axle else {}),
+        }
+        for load, axle in places
+    ]
+
+
+def _step_cases(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any]]:
+    targets = layout.targets
+    criteria: dict[str, Any] = {"stop_hits": {"max": 0}}
+    if targets.travel.overshoot is not None:
+        criteria["overshoot"] = {"max": targets.travel.overshoot}
+    places = [(load, axle) for axle in AXLES for load in targets.loads]
+    return [
+        {
+            **_case(
+                layout,
+                f"step of {quantity_text(height, 'm')}",
+                ONE_MASS,
+                {"kind": "step", "height": height, "duration": 2.5},
+            ),
+            "criteria": criteria,
+            "configuration": _configurations(kept, car, places),
+        }
+        for height in targets.travel.steps
+    ]
+
+
+def _roll_case(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any]]:
+    roll = layout.targets.roll
+    found: Finding | None = next((each for each in kept.findings if each.step == "roll"), None)
+    if roll is None or found is None or found.minimum is None or found.maximum is None:
+        return []
+    manoeuvre = {"kind": "lateral_force", "acceleration": roll.lateral_acceleration}
+    return [
+        {
+            **_case(layout, "roll", "full_3dof", manoeuvre),
+            "criteria": {"roll_angle_final": {"min": found.minimum, "max": found.maximum}},
+            "configuration": _configurations(kept, car, [(roll.load, None)]),
+        }
+    ]
+
+
+def _check_cases(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any]]:
+    return [
+        {
+            **_case(layout, check.name, check.model, check.manoeuvre),
+            **({"step": check.step} if check.step is not None else {}),
+            "criteria": {name: band.model_dump(exclude_none=True) for name, band in check.criteria.items()},
+            "configuration": _configurations(
+                kept,
+                car,
+                [(load, axle) for axle in axles_of(check) for load in check.loads or layout.targets.loads],
+            ),
+        }
+        for check in layout.targets.check
+    ]

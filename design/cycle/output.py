@@ -1,0 +1,140 @@
+"""Carrying a cycle out: its state and its results in a folder."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from evaluation.story import Story
+from susp_mj.errors import InputError
+from susp_mj.files import write_text
+
+from ..case import file_name
+from ..results import staged
+from .candidate import Layout
+from .car_file import write_car, write_cases
+from .components import write_components
+from .cycling import Branch, Heard, Outcome, cycle
+from .ledger import Ledger
+from .targets import Targets
+from .telling import Progress, story
+
+STATE = "state"
+"""Folder in the results that a cycle is resumed from: runs that are done, and branches."""
+WRITTEN = ("verdict.html", "verdict.json", "film.mp4", "*.toml", "cases/*.toml", "runs/*.nc", "components/*.csv")
+
+
+def lay_out(
+    targets: Targets,
+    path: Path,
+    out: Path,
+    *,
+    resume: bool = False,
+    branch: Branch | None = None,
+    video: bool = False,
+    workers: int | None = None,
+    heard: Heard = lambda candidate, finding: None,
+    progress: Progress = lambda task, done: None,
+) -> Story:
+    """Go through a cycle and leave ``verdict.html``, ``verdict.json``, the car's file with every candidate as a set,
+    ``cases/*.toml`` that hold the kept one against its targets again, ``runs/*.nc`` and a film in `out`.
+
+    Every run is kept in ``state/`` as soon as it is done.
+
+    Args:
+        resume: take the runs and branches that are there; else the cycle begins anew.
+        branch: a further line from an earlier candidate, kept for the next time; asks for `resume`.
+        heard: called with each finding as it is made.
+
+    Raises:
+        InputError: the targets do not fit the car, nothing is there to resume, or `out` cannot be written.
+    """
+    layout = Layout.open(targets, path)
+    state = _state(out, resume=resume or branch is not None)
+    branches = [*_read_branches(state), *([] if branch is None else [branch])]
+    ledger = Ledger(state / "runs.jsonl", path, targets.plugins, workers)
+    outcomes = cycle(layout, lambda asked: ledger.ask(asked, progress), heard, branches)
+    _write_branches(state, branches)
+    told = story(layout, outcomes, ledger, progress)
+    with staged(out, marker="verdict.json", patterns=WRITTEN) as stage:
+        _write(layout, outcomes, told, stage, video=video, progress=progress)
+    return told
+
+
+def _state(out: Path, *, resume: bool) -> Path:
+    """Folder of the state, empty for a cycle that begins anew."""
+    state = out / STATE
+    if resume and not (state / "runs.jsonl").is_file():
+        raise InputError(f"there is nothing to resume in {out}", key="resume")
+    try:
+        if not resume:
+            shutil.rmtree(state, ignore_errors=True)
+        state.mkdir(parents=True, exist_ok=True)
+        (state / "runs.jsonl").touch()
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror}", source=str(out)) from None
+    return state
+
+
+def _read_branches(state: Path) -> list[Branch]:
+    file = state / "branches.json"
+    if not file.is_file():
+        return []
+    return [Branch(**each) for each in json.loads(file.read_text(encoding="utf-8"))]
+
+
+def _write_branches(state: Path, branches: Sequence[Branch]) -> None:
+    if branches:
+        plain = [{"parent": b.parent, "change": dict(b.change), "because": b.because} for b in branches]
+        write_text(state / "branches.json", json.dumps(plain, indent=2, ensure_ascii=False) + "\n")
+
+
+def _write(
+    layout: Layout, outcomes: Sequence[Outcome], told: Story, stage: Path, *, video: bool, progress: Progress
+) -> None:
+    from evaluation.pages.verdict import write_verdict, write_verdict_json
+
+    car = write_car(layout, outcomes, stage)
+    kept = next((each for each in reversed(outcomes) if each.kept), None)
+    if kept is not None:
+        write_cases(layout, kept, car, stage / "cases")
+        write_components(layout.vehicle(kept.candidate), layout.targets, stage / "components")
+    progress("write runs", 0.0)
+    for check, places in told.runs.items():
+        for place, runs in places.items():
+            for name, run in runs.items():
+                run.save(stage / "runs" / f"{file_name(f'{check}, {place}, {name}')}.nc")
+    videos = [_film(told, stage / "film.mp4", progress)] if video else []
+    progress("write the verdict", 0.0)
+    write_verdict(told, stage / "verdict.html", [each for each in videos if each])
+    write_verdict_json(told, stage / "verdict.json")
+
+
+def _film(told: Story, path: Path, progress: Progress) -> str:
+    """Ghost film of the last discarded against the kept candidate on the first check that both drove; empty if there is
+    none."""
+    from evaluation.animation.clip import Clip
+    from evaluation.animation.kinds import kind_of
+    from evaluation.animation.render import render_video
+
+    for _, _, runs in _driven(told.runs):
+        clips = [Clip(name, run) for name, run in runs.items()]
+        if len(clips) == 2:
+            quality = kind_of(clips).quality
+            return render_video(
+                clips, path, layout="ghost", quality=quality, progress=lambda done: progress("render film", done)
+            ).name
+    return ""
+
+
+def _driven(runs: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> list[tuple[str, str, Mapping[str, Any]]]:
+    """Check, place and runs of the candidates that drove freely there."""
+    return [
+        (check, place, each)
+        for check, places in runs.items()
+        for place, each in places.items()
+        if all(run.meta.get("car") == "handling" for run in each.values())
+    ]

@@ -1,0 +1,158 @@
+"""Reach: which knobs move a missed target most, and what else they move, by turning each a little through the same
+runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from evaluation.story import Finding, Influence
+from susp_mj.names import AXLES
+
+from .candidate import Candidate, Layout
+from .characteristics import Ask, Tried, bars, damping, frequencies, load_range, needs_of, possible, rolled, steps
+from .checks import check, places_of, run_of
+from .cycling import Outcome, with_bars
+from .knobs import KNOBS, ratio_of, ratio_text
+from .ledger import Asked
+
+TURN = 0.1
+"""Share by which a knob is turned; a frequency by half of it, its spring's rate then moves as much."""
+LEAST_BAR = 1000.0
+"""[N/m] by which a bar is turned at least."""
+MOST, ALSO = 3, 3
+"""So many knobs are named for a target, and so many things that each moves besides."""
+LEAST, BESIDES = 5e-3, 0.02
+"""A missed target, and anything else, moves if it does so by more than this share of its size or its bounds."""
+
+
+def reach(layout: Layout, outcome: Outcome, ask: Ask) -> list[Influence]:
+    """The knobs that move what a candidate missed: three for each target.
+
+    Springs are turned with the bars laid out anew, as a repair would do it; a bar by itself.
+    """
+    missed = outcome.missed
+    if not missed or (missed[0].value is None and all(each.value is None for each in missed)):
+        return []
+    tries = {knob: each for knob in KNOBS if (each := _turned(layout, outcome.candidate, knob)) is not None}
+    ask([run for _, candidate in tries.values() for run in _manoeuvres(layout, candidate, ask, missed)])
+    before = _held_against(layout, outcome.candidate, ask, missed)
+    turned = {knob: (words, _held_against(layout, each, ask, missed)) for knob, (words, each) in tries.items()}
+    return [each for target in missed for each in _strongest(target, before, turned)]
+
+
+def _turned(layout: Layout, candidate: Candidate, knob: str) -> tuple[str, Candidate] | None:
+    """A candidate with one knob turned, and by how much in words; None for one that is held or at its end."""
+    if knob in layout.held:
+        return None
+    value = layout.values(candidate)[knob]
+    part = KNOBS[knob].part
+    if isinstance(value, str):
+        compression, rebound = ratio_of(value)
+        new = ratio_text((compression * (1 + TURN), rebound))
+        words = f"compression share +{100 * TURN:.0f} %"
+    elif part == "bar":
+        by = max(TURN * value, LEAST_BAR)
+        new, words = value + by, f"+{by / 1000:.1f} kN/m"
+        candidate = replace(candidate, bars=False)
+    else:
+        share = TURN / 2 if knob.endswith("frequency") else TURN
+        new, words = value * (1 + share), f"+{100 * share:.0f} %"
+    candidate = replace(candidate, turned={**candidate.turned, knob: new})
+    return None if possible(layout, candidate) is not None else (words, candidate)
+
+
+def _manoeuvres(layout: Layout, candidate: Candidate, ask: Ask, missed: list[Finding]) -> list[Asked]:
+    """The runs of the checks that were missed, to be asked for side by side."""
+    tried = _laid_out(layout, candidate, ask)
+    return [
+        run_of(tried, asked, *place)
+        for asked in layout.targets.check
+        if asked.name in {each.step for each in missed}
+        for place in places_of(tried, asked, {each.where for each in missed})
+    ]
+
+
+def _laid_out(layout: Layout, candidate: Candidate, ask: Ask) -> Tried:
+    """The candidate, with its bars laid out anew if that is wished."""
+    tried = Tried(layout, candidate, layout.vehicle(candidate), ask)
+    needs = needs_of(tried) if candidate.bars else None
+    return tried if needs is None else with_bars(tried, needs)
+
+
+def _held_against(layout: Layout, candidate: Candidate, ask: Ask, missed: list[Finding]) -> dict[str, Finding]:
+    """Findings of the steps in closed form, of the roll, and of the step that was missed, by key."""
+    names = {each.step for each in missed}
+    tried = Tried(layout, candidate, layout.vehicle(candidate), ask)
+    found: list[Finding] = [*load_range(tried), *frequencies(tried), *damping(tried)]
+    if "steps" in names:
+        found += steps(tried)
+    needs = needs_of(tried)
+    if needs is not None:
+        found += bars(tried, needs)
+        tried = _laid_out(layout, candidate, ask)
+        found += rolled(tried)
+    found += _ride(tried)
+    for asked in layout.targets.check:
+        if asked.name in names:
+            found += check(tried, asked, {each.where for each in missed})
+    return {each.key: each for each in found}
+
+
+def _ride(tried: Tried) -> Iterable[Finding]:
+    """Peak acceleration of the body on a step of middling height, as something that every knob may move."""
+    heights = sorted(tried.layout.targets.travel.steps)
+    if not heights:
+        return
+    height, load = heights[(len(heights) - 1) // 2], "ko"
+    number = "body_acceleration_max"
+    asked = [
+        tried.run(
+            f"ride, {name} axle",
+            "quarter_1dof",
+            load,
+            name,
+            {"kind": "step", "height": height, "duration": 1.5},
+            (number,),
+        )
+        for name in AXLES
+    ]
+    for name, answer in zip(AXLES, tried.ask(asked), strict=True):
+        if not answer.failed:
+            where, title = f"{name} axle, {load}", f"body acceleration on a step of {1000 * height:.0f} mm"
+            yield Finding("ride", title, where, "", {}, answer.numbers[number].value, "m/s²")
+
+
+def _strongest(
+    target: Finding, before: Mapping[str, Finding], turned: Mapping[str, tuple[str, Mapping[str, Finding]]]
+) -> list[Influence]:
+    """The knobs that move a target most, with what else they move."""
+    found = []
+    for knob, (words, after) in turned.items():
+        moved = _moved(before.get(target.key), after.get(target.key))
+        if moved is not None and abs(moved) > LEAST * _size(before[target.key]):
+            also = sorted(_also(target.key, before, after), key=lambda each: -each[0])[:ALSO]
+            influence = Influence(target.key, knob, words, moved, target.unit, {key: by for _, key, by in also})
+            found.append(influence)
+    return sorted(found, key=lambda each: -abs(each.moved))[:MOST]
+
+
+def _also(
+    target: str, before: Mapping[str, Finding], after: Mapping[str, Finding]
+) -> Iterable[tuple[float, str, tuple[float, str]]]:
+    for key, finding in before.items():
+        moved = _moved(finding, after.get(key))
+        if key != target and moved is not None and abs(moved) > BESIDES * _size(finding):
+            yield abs(moved) / _size(finding), key, (moved, finding.unit)
+
+
+def _moved(before: Finding | None, after: Finding | None) -> float | None:
+    if before is None or after is None or before.value is None or after.value is None:
+        return None
+    return after.value - before.value
+
+
+def _size(finding: Finding) -> float:
+    """What a change of a finding is measured by: its value or its bounds, whichever is largest."""
+    sizes = [abs(each) for each in (finding.value, finding.minimum, finding.maximum) if each is not None]
+    return max(sizes, default=0.0) or 1.0
