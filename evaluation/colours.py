@@ -14,7 +14,7 @@ COLOURS: tuple[str, ...] = (
 )
 """Of configurations, safe for colour-blind readers: blue, orange, green, purple, ochre, cyan, crimson, grey."""
 LIFTED = "#e01b24"
-"""Red of a wheel that has left the road; no configuration uses it."""
+"""Red of a wheel that has left the road, and of limits; no configuration uses it."""
 INK, MUTED, GRID, PAPER = "#24292f", "#6b7480", "#dfe3e8", "#ffffff"
 LIGHT = {"ink": INK, "muted": MUTED, "grid": GRID, "paper": PAPER, "lifted": LIFTED}
 DARK = {"ink": "#dfe4ea", "muted": "#8d96a1", "grid": "#333a43", "paper": "#1b2026", "lifted": "#ff6b70"}

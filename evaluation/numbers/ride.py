@@ -52,7 +52,7 @@ def overshoot(run: Run) -> Answer:
     Has no value where the body ends where it began, as after a bump.
     """
     displacement = run["body_displacement"] - run["body_displacement"][0]
-    final = _final(displacement)
+    final = final_value(displacement)
     if abs(final) < 0.1 * float(np.abs(displacement).max()) or final == 0.0:
         return Answer(None, "the body returns to its initial height")
     return Answer(max(0.0, float((displacement / final).max()) - 1.0))
@@ -62,7 +62,7 @@ def settling_time(run: Run) -> Answer:
     """Time from the first input until the body stays within ±5 % of its largest departure from the final height [s]."""
     displacement = run["body_displacement"]
     start = _first_input(run)
-    departure = np.abs(displacement - _final(displacement))
+    departure = np.abs(displacement - final_value(displacement))
     band = SETTLED_BAND * float(departure.max())
     outside = np.flatnonzero(departure > band)
     if band == 0.0 or start is None:
@@ -174,7 +174,7 @@ def _rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def _final(values: np.ndarray) -> float:
+def final_value(values: np.ndarray) -> float:
     """Mean over the last 2 % of the run."""
     return float(values[-max(len(values) // 50, 1) :].mean())
 

@@ -1,1 +1,1 @@
-"""Pages: the report of a comparison, the sheet of a car, the summary."""
+"""Pages: the report of a comparison, the sheet of a car, the verdict of a design cycle, the summary."""

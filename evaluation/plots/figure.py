@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..colours import COLOURS, GRID, INK, MUTED, PAPER
+from ..colours import COLOURS, GRID, INK, LIFTED, MUTED, PAPER
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,6 +23,8 @@ FONTS = "'Helvetica Neue', Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', s
 LINE_STYLES = ("-", "--", ":")
 """The colours repeat after eight configurations, then the line style changes."""
 
+LINE_WIDTH = 1.5
+"""Of a configuration's line [points]."""
 _POINTS = 1000
 """A line with more than twice as many samples is drawn by its extremes in as many bins."""
 PANEL = (4.05, 2.15)
@@ -86,7 +88,12 @@ def draw_svg(make: Callable[..., Figure], *arguments: Any) -> str:
 
 
 def make_panels(
-    names: Sequence[str], titles: Sequence[str], *, share_y: bool = False, size: tuple[float, float] = PANEL
+    names: Sequence[str],
+    titles: Sequence[str],
+    *,
+    share_y: bool = False,
+    size: tuple[float, float] = PANEL,
+    orders: Sequence[int] | None = None,
 ) -> tuple[Figure, list[Axes]]:
     """A figure with a legend on top and panels below, two in a row, or three that share the width of two.
 
@@ -94,6 +101,7 @@ def make_panels(
         names: of the configurations, for the legend.
         titles: of the panels; an only panel needs none.
         size: width and height of a panel [inches].
+        orders: places of the names in the order of colours; without them as they stand.
     """
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
@@ -125,7 +133,10 @@ def make_panels(
             axes[-1].yaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
         if count > 1:
             axes[-1].set_title(short_label(titles[i]) if titles[i] else "")
-    handles = [Line2D([], [], color=colour(i), linestyle=line_style(i), linewidth=2.0) for i in range(len(names))]
+    handles = [
+        Line2D([], [], color=colour(order), linestyle=line_style(order), linewidth=2.0)
+        for order in (range(len(names)) if orders is None else orders)
+    ]
     legend = figure.legend(
         handles,
         [" "] * len(names),  # replaced below: the legend would drop a name that starts with an underscore
@@ -149,25 +160,54 @@ def stop_lines(panel: Axes, rebound: float, compression: float, *, horizontal: b
     """Both stops [mm] as dashed lines, with their names."""
     for place, name, outside in ((compression, "compression stop", "bottom"), (rebound, "rebound stop", "top")):
         if horizontal:
-            panel.axhline(place, color=MUTED, linewidth=0.9, linestyle=(0, (5, 3)))
-            if named:
-                panel.annotate(
-                    name,
-                    (1, place),
-                    xycoords=("axes fraction", "data"),
-                    xytext=(-2, 2 if outside == "bottom" else -2),
-                    textcoords="offset points",
-                    ha="right",
-                    va=outside,
-                    fontsize=7.5,
-                    color=MUTED,
-                )
+            stop_line(panel, place, name if named else "", outside)
         else:
             panel.axvline(place, color=MUTED, linewidth=0.9, linestyle=(0, (5, 3)))
     if horizontal:
         low, high = panel.get_ylim()
         margin = 0.1 * (compression - rebound)
         panel.set_ylim(min(low, rebound - margin), max(high, compression + margin))
+
+
+def stop_line(panel: Axes, place: float, name: str, outside: str, end: str = "right") -> None:
+    """A stop [mm] as a horizontal dashed line, its name above ("bottom") or below it ("top") at one end."""
+    panel.axhline(place, color=MUTED, linewidth=0.9, linestyle=(0, (5, 3)))
+    name_line(panel, place, name, MUTED, outside, end)
+
+
+def limit_line(panel: Axes, place: float, name: str, *, horizontal: bool = True, end: str = "right") -> None:
+    """A bound of what is asked; its name stands above one end of a horizontal line, and on top of another."""
+    dashes: Any = (0, (4, 1.5, 1, 1.5))
+    if horizontal:
+        panel.axhline(place, color=LIFTED, linewidth=1.0, linestyle=dashes)
+        name_line(panel, place, name, LIFTED, end=end)
+        return
+    panel.axvline(place, color=LIFTED, linewidth=1.0, linestyle=dashes)
+    panel.annotate(
+        name,
+        (place, 1),
+        xycoords=("data", "axes fraction"),
+        xytext=(14, 3),
+        textcoords="offset points",
+        ha="right",
+        fontsize=7.5,
+        color=LIFTED,
+    )
+
+
+def name_line(panel: Axes, place: float, name: str, ink: str, outside: str = "bottom", end: str = "right") -> None:
+    """Name of a horizontal line above ("bottom") or below it ("top"), at its left or right end."""
+    panel.annotate(
+        name,
+        (1 if end == "right" else 0, place),
+        xycoords=("axes fraction", "data"),
+        xytext=(-2 if end == "right" else 4, 2 if outside == "bottom" else -2),
+        textcoords="offset points",
+        ha=end,
+        va=outside,
+        fontsize=7.5,
+        color=ink,
+    )
 
 
 def zero_line(panel: Axes) -> None:
@@ -177,14 +217,14 @@ def zero_line(panel: Axes) -> None:
         panel.axhline(0, color=MUTED, linewidth=0.6, zorder=1.5)
 
 
-def draw_line(panel: Axes, order: int, x: np.ndarray, y: np.ndarray) -> None:
+def draw_line(panel: Axes, order: int, x: np.ndarray, y: np.ndarray, width: float = LINE_WIDTH) -> None:
     """One configuration's line; where it hides an equal one it is dashed, so that both are seen."""
     style: Any = line_style(order)
     hidden = sum(look_alike(line.get_xydata(), x, y) for line in panel.lines)
     if hidden:
         dash = 6 / 2 ** (min(hidden, 3) - 1)
         style = (0, (dash, 12 - dash))
-    panel.plot(x, y, color=colour(order), linestyle=style, linewidth=1.5)
+    panel.plot(x, y, color=colour(order), linestyle=style, linewidth=width)
 
 
 def look_alike(line: Any, x: np.ndarray, y: np.ndarray) -> bool:

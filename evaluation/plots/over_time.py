@@ -129,7 +129,7 @@ def shown_together(configurations: Sequence[Configuration]) -> tuple[str, ...]:
     if not configurations or not all(drives(each.run) for each in configurations):
         return ()
     wanted = character(configurations[0].run).together
-    return tuple(quantity for quantity in wanted if any(_moves(each.run, quantity) for each in configurations))
+    return tuple(quantity for quantity in wanted if any(moves(each.run, quantity) for each in configurations))
 
 
 def together_plots(configurations: Sequence[Configuration]) -> dict[str, str]:
@@ -143,7 +143,8 @@ def axle_load_plots(configurations: Sequence[Configuration]) -> dict[str, str]:
     return {"axle_loads_handling": draw_svg(_axle_load_figure, configurations)} if drawn else {}
 
 
-def _moves(run: Run, quantity: str) -> bool:
+def moves(run: Run, quantity: str) -> bool:
+    """Whether a run has a quantity that changes at all."""
     return quantity in run and bool(np.ptp(run[quantity]) > 1e-6)
 
 
@@ -152,20 +153,31 @@ def _together_figure(configurations: Sequence[Configuration]) -> Figure:
     quantities = shown_together(configurations)
     figure, panels = make_panels([each.name for each in configurations], ["" for _ in quantities])
     for panel, quantity in zip(panels, quantities, strict=True):
-        how = _SHOWN.get(quantity, shown(QUANTITIES[quantity][0]))
         for order, each in enumerate(configurations):
             if quantity in each.run:
-                values = each.run[quantity] - (each.run[quantity][0] if quantity in _FROM_START else 0.0)
-                if quantity.endswith("side_slip_angle"):  # has no meaning at a standstill
-                    values = np.where(each.run["speed"] > _STANDSTILL, values, 0.0)
-                draw_line(panel, order, *thinned(each.run.time, values * how.factor))
+                draw_line(panel, order, *together_line(each.run, quantity))
         zero_line(panel)
         panel.set_xlim(0, max(float(each.run.time[-1]) for each in configurations))
-        label_axes(panel, "time [s]", _named(quantity, how.unit))
+        label_axes(panel, "time [s]", together_label(quantity))
     return figure
 
 
-def _named(quantity: str, unit: str) -> str:
+def together_line(run: Run, quantity: str) -> tuple[np.ndarray, np.ndarray]:
+    """Time [s] and values, in the unit shown, of a quantity that a manoeuvre shows together with others."""
+    values = run[quantity] - (run[quantity][0] if quantity in _FROM_START else 0.0)
+    if quantity.endswith("side_slip_angle"):  # has no meaning at a standstill
+        values = np.where(run["speed"] > _STANDSTILL, values, 0.0)
+    return thinned(run.time, values * together_unit(quantity).factor)
+
+
+def together_unit(quantity: str) -> Shown:
+    """How `together_line` shows a quantity."""
+    return _SHOWN.get(quantity, shown(QUANTITIES[quantity][0]))
+
+
+def together_label(quantity: str) -> str:
+    """Quantity and unit shown, as the axis of `together_line` is named."""
+    unit = together_unit(quantity).unit
     words = {"wind_y": "wind across", "body_displacement": "rise of the centre of gravity", "yaw_rate": "yaw velocity"}
     return words.get(quantity, quantity.replace("_", " ")) + (f" [{unit}]" if unit else "")
 

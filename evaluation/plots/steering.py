@@ -13,6 +13,7 @@ from ..numbers.steering_frequency import Response, steering_response
 from .figure import draw_line, draw_svg, label_axes, make_panels
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from ..compare import Configuration
@@ -32,11 +33,9 @@ def steering_plots(configurations: Sequence[Configuration]) -> dict[str, str]:
 
 def _frequency_figure(configurations: Sequence[Configuration], quantity: str) -> Figure:
     """Gain, phase and coherence of a quantity over the frequency of the steering wheel."""
-    from matplotlib.ticker import FuncFormatter, MultipleLocator, NullLocator
+    from matplotlib.ticker import MultipleLocator
 
-    unit, factor = {"rad/s": ("1/s", 1.0), "m/s²": ("m/s² per 100°", np.radians(100.0))}.get(
-        QUANTITIES[quantity][0], ("°/°", 1.0)
-    )
+    unit, factor = gain_unit(quantity)
     figure, panels = make_panels([each.name for each in configurations], ["gain", "phase", "coherence"])
     for order, each in enumerate(configurations):
         found = steering_response(each.run, quantity)
@@ -44,16 +43,29 @@ def _frequency_figure(configurations: Sequence[Configuration], quantity: str) ->
             for panel, values in zip(panels, _curves(found, factor), strict=True):
                 draw_line(panel, order, found.frequency, values)
     for panel, label in zip(panels, (f"gain [{unit}]", "phase [°]", "coherence"), strict=True):
-        panel.set_xscale("log")
-        panel.set_xticks([each for each in (0.2, 0.5, 1, 2, 5, 10) if panel.dataLim.x0 <= each <= panel.dataLim.x1])
-        panel.xaxis.set_minor_locator(NullLocator())
-        panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        over_frequency(panel)
         label_axes(panel, "frequency [Hz]", label)
     panels[0].set_ylim(0, 1.08 * panels[0].dataLim.y1)
     phases = float(np.ptp(panels[1].dataLim.intervaly))
     panels[1].yaxis.set_major_locator(MultipleLocator(15 if phases < 90 else 30 if phases < 200 else 90))
     panels[2].set_ylim(0, 1.04)
     return figure
+
+
+def gain_unit(quantity: str) -> tuple[str, float]:
+    """Unit in which the gain of a quantity is shown, and shown value per SI value."""
+    shown_as = {"rad/s": ("1/s", 1.0), "m/s²": ("m/s² per 100°", float(np.radians(100.0)))}
+    return shown_as.get(QUANTITIES[quantity][0], ("°/°", 1.0))
+
+
+def over_frequency(panel: Axes) -> None:
+    """Let the horizontal axis be a logarithmic one of a few plain frequencies."""
+    from matplotlib.ticker import FuncFormatter, NullLocator
+
+    panel.set_xscale("log")
+    panel.set_xticks([each for each in (0.2, 0.5, 1, 2, 5, 10) if panel.dataLim.x0 <= each <= panel.dataLim.x1])
+    panel.xaxis.set_minor_locator(NullLocator())
+    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
 
 
 def _curves(found: Response, factor: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -25,15 +23,6 @@ from vehicles import load_vehicle
 
 from ..builders.comparisons import SETS, compare
 
-ARGUMENTS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
 CRITERIA = {
     "body_acceleration_max": Criterion(None, 8.0),
     "wheel_load_min": Criterion(500.0, None),
@@ -69,43 +58,6 @@ def sheet(tmp_path_factory):
     return write_sheet(
         f"Sheet {TITLE}", sets, tmp_path_factory.mktemp("sheet") / "sheet.html", {"vehicle": "chapter3 <i>"}
     )
-
-
-@pytest.fixture(scope="module")
-def browser():
-    from playwright.sync_api import sync_playwright
-
-    program = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-    if program is None:
-        pytest.fail(
-            "no chromium, chromium-browser or google-chrome on the PATH: the report cannot be tested in a real "
-            "browser; install one"
-        )
-    with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=program, args=ARGUMENTS)
-        yield running
-        running.close()
-
-
-@pytest.fixture
-def visit(browser):
-    """Opens a page and keeps what it said and asked for."""
-    pages = []
-
-    def open_page(path, scheme="light", width=1200, media="screen"):
-        page = browser.new_page(color_scheme=scheme, viewport={"width": width, "height": 900})
-        pages.append(page)
-        seen = SimpleNamespace(page=page, said=[], asked=[])
-        page.on("console", lambda message: seen.said.append(message.text))
-        page.on("pageerror", lambda error: seen.said.append(str(error)))
-        page.on("request", lambda request: seen.asked.append(request.url))
-        page.emulate_media(media=media, color_scheme=scheme)
-        page.goto(path.as_uri(), wait_until="load")
-        return seen
-
-    yield open_page
-    for page in pages:
-        page.close()
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
