@@ -253,14 +253,18 @@ def _plain_attempt(attempt: Attempt) -> dict[str, Any]:
     return {
         **vars(attempt),
         "values": {name: _with_unit(*each) for name, each in attempt.values.items()},
-        "findings": [
-            {**vars(each), "key": each.key, "passed": each.passed, "margin": each.margin} for each in attempt.findings
-        ],
+        "findings": [_plain_finding(each) for each in attempt.findings],
         "influences": [
             {**vars(each), "also": {key: _with_unit(*moved) for key, moved in each.also.items()}}
             for each in attempt.influences
         ],
     }
+
+
+def _plain_finding(finding: Finding) -> dict[str, Any]:
+    """A finding with what follows from it; what to say of a missed target is left out where it is met."""
+    follows = {"key": finding.key, "passed": finding.passed, "margin": finding.margin}
+    return {**vars(finding), **follows, "words": "" if finding.passed else finding.words}
 
 
 def _with_unit(value: float | str, unit: str) -> Mapping[str, Any]:

@@ -22,7 +22,16 @@ from evaluation.plots.candidates import MOST, Cast, with_curves
 from evaluation.plots.cycle import characteristic_plots, trade_off_plots
 from evaluation.plots.cycle_runs import run_plots
 from evaluation.story import Attempt, Finding, Influence, Story, TradeOff
-from manoeuvres import RampSteer, RoadStep, StepSteer, SuspensionRig, SweptSteer
+from manoeuvres import (
+    Bump,
+    LateralForce,
+    RampSteer,
+    RoadStep,
+    StepSteer,
+    SuspensionRig,
+    SweptSteer,
+    VerticalSweep,
+)
 from susp_mj import simulate
 from susp_mj.errors import InputError
 from vehicles import load_vehicle
@@ -39,7 +48,8 @@ SETS = {"A": "linear", EVIL: "nonlinear", "D": "nonlinear"}
 
 
 def found(step, target, value, unit="m", where="rear axle, ko", **more):
-    return Finding(step, target, where, "x_max - x", {"x_max": "90 mm", "h <i>": "<10 mm>"}, value, unit, **more)
+    inputs = {"x_max": "90 mm", "h <i>": "<10 mm>"}
+    return Finding(step, target, where, "x_max - x", inputs, value, unit, words=f"{target} is missed", **more)
 
 
 def findings(travel, lift):
@@ -344,6 +354,7 @@ def test_limits_stand_where_targets_are_held_against_a_turn(figures):
 
 def test_figures_follow_from_what_a_run_is_and_not_from_a_name(cycle):
     cast = Cast.of(cycle)
+    cycle = replace(cycle, runs={check: cycle.runs[check] for check in ("step of 10 mm", "tightening", "steering")})
     renamed = {
         f"check {i}": {place: {name: _renamed(run) for name, run in of_one.items()} for place, of_one in places.items()}
         for i, places in enumerate(cycle.runs.values())
@@ -354,12 +365,28 @@ def test_figures_follow_from_what_a_run_is_and_not_from_a_name(cycle):
     ]
 
 
+@pytest.mark.parametrize(
+    ("model", "manoeuvre", "title"),
+    [
+        ("quarter_1dof", VerticalSweep(duration=5.0), "Amplification of the road"),
+        ("quarter_1dof", Bump(duration=1.0), "Bump over time"),
+        ("full_3dof", LateralForce(duration=1.0), "Lateral force over time"),
+    ],
+)
+def test_other_runs_of_oscillation_models_are_drawn_as_well(cycle, model, manoeuvre, title):
+    car = load_vehicle("chapter3") if model.startswith("quarter") else load_vehicle("s_class")
+    run = simulate(build(car, model), manoeuvre)
+    one = replace(cycle, runs={"check": {"rear axle, ko": {"D": run}}})
+    plots = run_plots(one, Cast.of(one))["check"]
+    assert plots[0].title == title and all(lines(each.svg, COLOURS[2]) for each in plots)
+
+
 def _renamed(run):
     return replace(run, meta={**run.meta, "title": "x", "manoeuvre": {**run.meta["manoeuvre"], "kind": "x"}})
 
 
 def test_a_check_without_a_figure_says_so(cycle, page):
-    assert run_plots(cycle, Cast.of(cycle))["rig"] == []
+    assert run_plots(replace(cycle, runs={"rig": cycle.runs["rig"]}), Cast.of(cycle)) == {"rig": []}
     assert "There is no figure for runs of this kind." in page.read_text(encoding="utf-8")
 
 
@@ -418,6 +445,7 @@ def test_file_is_strict_json_and_the_same_each_time(cycle, tmp_path):
         assert entry["name"] == attempt_.name and entry["reason"] == attempt_.reason
         assert [each["key"] for each in entry["findings"]] == [each.key for each in attempt_.findings]
         assert [each["passed"] for each in entry["findings"]] == [each.passed for each in attempt_.findings]
+        assert all(bool(each["words"]) != each["passed"] for each in entry["findings"])
         assert entry["values"]["rear.bar"] == {"value": attempt_.values["rear.bar"][0], "unit": "N/m"}
     assert plain["attempts"][1]["influences"][0]["also"]["elsewhere: comfort"] == {"value": 0.1, "unit": "m/s²"}
 
