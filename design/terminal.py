@@ -99,7 +99,8 @@ class CyclePrinter:
             self._console.print(Text(f"\n{name}: {because}", "bold"))
         mark = Text("  ok  ", "green") if finding.passed else Text("  NO  ", "bold red")
         result = quantity_text(finding.value, finding.unit) + (f" ({finding.note})" if finding.note else "")
-        line = [mark, f"{finding.key}: {result}, asked is {finding.band}"]
+        asked = f", asked is {finding.band}" if finding.band else ""
+        line = [mark, f"{finding.key}: {result}{asked}"]
         if finding.assumed:
             line.append(" by default")
         inputs = ", ".join(f"{key} = {text}" for key, text in finding.inputs.items())

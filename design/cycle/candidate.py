@@ -16,6 +16,7 @@ from susp_mj.names import AXLES
 from vehicles.reading import VehicleFile
 from vehicles.vehicle import Vehicle
 
+from ..case import read_manoeuvre
 from .knobs import Values, knobs_of, overrides
 from .targets import Targets, read_knobs
 
@@ -75,19 +76,29 @@ class Layout:
             InputError: no such vehicle, set or load.
         """
         name = targets.vehicle
-        layout = cls(targets, path, VehicleFile.open(path.parent / name if name.endswith(".toml") else name))
         try:
-            car = layout.own(targets.characteristics)
-            for key, load in [("loads", each) for each in targets.loads] + [
-                (f"check.{i}.loads", load) for i, check in enumerate(targets.check) for load in check.loads or ()
-            ]:
+            layout = cls(targets, path, VehicleFile.open(path.parent / name if name.endswith(".toml") else name))
+            layout._check()
+        except InputError as error:
+            raise error.within(source=path.name) from None
+        return layout
+
+    def _check(self) -> None:
+        """Refuse loads that the car does not have, and manoeuvres that are none."""
+        car = self.own(self.targets.characteristics)
+        for i, check in enumerate(self.targets.check):
+            try:
+                read_manoeuvre(check.manoeuvre)
+            except InputError as error:
+                raise error.within(key=f"check.{i}") from None
+        asked = [("loads", self.targets.loads)]
+        asked += [(f"check.{i}.loads", each.loads or ()) for i, each in enumerate(self.targets.check)]
+        for key, loads in asked:
+            for load in loads:
                 try:
                     car.load(load)
                 except InputError as error:
                     raise InputError(error.message, key=key) from None
-        except InputError as error:
-            raise error if error.source else error.within(source=path.name) from None
-        return layout
 
     def own(self, characteristics: str | None) -> Vehicle:
         """The car with one of its sets as the file and the targets' overrides have it."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from evaluation.display import quantity_text
 from evaluation.story import Finding
+from susp_mj.elements import GRAVITY
 from susp_mj.names import AXLES
 from vehicles.vehicle import DESIGN_LOAD
 
@@ -88,7 +89,7 @@ def _needed_frequency(tried: Tried, name: str) -> float | None:
     room = stops.compression - max(targets.travel.steps, default=0.0) - targets.travel.reserve
     if room <= 0:
         return None
-    least = math.sqrt(9.81 * math.log(ratio) / room) / (2 * math.pi)
+    least = math.sqrt(GRAVITY * math.log(ratio) / room) / (2 * math.pi)
     return math.ceil(100 * least) / 100
 
 

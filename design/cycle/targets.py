@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from evaluation.numbers import NUMBERS
@@ -19,13 +19,23 @@ from vehicles.mjcf import MODELS
 from vehicles.reading import read_toml
 
 from ..case import Band
-from .knobs import KNOBS, REPAIRS
+from .knobs import KNOBS, REPAIRS, ratio_of, ratio_text
 
 FOLDER = Path(__file__).parent.parent / "cycles"
 Axle = Literal["front", "rear"]
 Share = Annotated[float, Quantity("", ge=0, le=1)]
 PositiveAcceleration = Annotated[float, Quantity("m/s²", gt=0)]
 PositiveAngle = Annotated[float, Quantity("rad", gt=0)]
+
+
+def _ratio(text: str) -> str:
+    try:
+        return ratio_text(ratio_of(text))
+    except ValueError as error:
+        raise wrong(str(error)) from None
+
+
+Ratio = Annotated[str, AfterValidator(_ratio)]
 
 
 class Limits(Description):
@@ -72,7 +82,7 @@ class Dampers(Description):
     ratio: Limits = Limits(min=0.2, max=0.6)
     start: Damping = 1500.0
     most: Damping = 4000.0
-    compression_to_rebound: str = "1:2"
+    compression_to_rebound: Ratio = "1:2"
     above: Share = 0.3
     above_least: Damping = 900.0
 
@@ -166,7 +176,7 @@ class Response(Description):
 class TradeOffs(Description):
     """Responses of the kept candidate over its dampers' compression to rebound ratio."""
 
-    ratios: tuple[str, ...] = ("1:2", "1:1", "2:1")
+    ratios: tuple[Ratio, ...] = ("1:2", "1:1", "2:1")
     response: tuple[Response, ...] = ()
 
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from evaluation.characteristics import Characteristic, characteristic
 from evaluation.display import quantity_text
 from evaluation.story import Attempt, Story
+from susp_mj.elements import GRAVITY
 from susp_mj.errors import InputError
 from susp_mj.names import AXLES
 from susp_mj.recording import versions
@@ -52,7 +53,7 @@ def story(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress:
         trade_offs(_tried(layout, kept, ask), _ratios(layout, kept, ask)) if kept is not None else (),
         {each.candidate.name: curves(layout, each.candidate) for each in outcomes if _possible(each)},
         {
-            load: {axle: layout.own(targets.characteristics).corner_mass(axle, load) * 9.81 for axle in AXLES}
+            load: {axle: layout.own(targets.characteristics).corner_mass(axle, load) * GRAVITY for axle in AXLES}
             for load in targets.loads
         },
         component_rows(layout.vehicle(kept), targets) if kept is not None else {},

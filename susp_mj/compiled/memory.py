@@ -10,9 +10,10 @@ from numba import from_dtype, njit, types  # pyright: ignore[reportPrivateImport
 from numba.extending import intrinsic as _intrinsic
 from numba.extending import register_jitable
 
-OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract", "arcp", "nsz", "reassoc"}}
-"""Of all compiled code: a division by zero gives infinity, without a branch that looks for it; products and sums may be
-joined."""
+OPTIONS: dict[str, Any] = {"error_model": "numpy"}
+"""Of all compiled code: a division by zero gives infinity, without a branch that looks for it. Sums and products stay
+as they are written: joined, as `fastmath` lets them be, a run would depend in its last digits on what was inlined,
+which differs between the process that compiles and those that load its code, and on the processor."""
 plain: Any = njit(**OPTIONS)
 """Decorator of functions that compiled code calls."""
 usable: Any = register_jitable(**OPTIONS)

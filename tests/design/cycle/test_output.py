@@ -1,0 +1,176 @@
+"""Folders of a cycle: they hold what was found, run again as they say, and survive being stopped at any moment."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import tomlkit
+
+from design.cycle.cycling import Branch, cycle
+from design.cycle.output import lay_out
+from design.cycle.targets import load_targets
+from susp_mj.errors import InputError
+from vehicles import VehicleFile, load_vehicle
+
+from ..test_plugins import call
+from .conftest import TARGETS
+
+ROOT = Path(__file__).parents[3]
+RATIOS = """
+set = { "rear.spring_ratio" = 0.8, "rear.damper_ratio" = 0.9 }
+coil = { rear = { wire_diameter = "14 mm", coil_diameter = "110 mm" } }
+piston = { rear = { piston_diameter = "36 mm", rod_diameter = "22 mm" } }
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Results of the targets of these tests, with motion ratios."""
+    here = tmp_path_factory.mktemp("cycle")
+    (here / "mine.toml").write_text(TARGETS.replace("[ride]", f"{RATIOS}\n[ride]", 1), encoding="utf-8")
+    targets, path = load_targets(here / "mine.toml")
+    lay_out(targets, path, here / "out")
+    return here
+
+
+def test_everything_is_there_and_nothing_half_written(folder):
+    out = folder / "out"
+    assert {"verdict.html", "verdict.json", "s_class.toml", "cases", "components", "runs", "state"} == {
+        each.name for each in out.iterdir()
+    }
+    assert not list(out.rglob("*.part")) and not list(out.glob(".unfinished*"))
+    verdict = json.loads((out / "verdict.json").read_text(encoding="utf-8"))
+    assert verdict["kept"] == "B" and [each["name"] for each in verdict["attempts"]] == ["A", "B"]
+    assert "active turns" in (out / "verdict.html").read_text(encoding="utf-8")
+
+
+def test_the_car_file_holds_every_candidate_and_the_file_it_came_from(folder):
+    car = folder / "out" / "s_class.toml"
+    file, own = VehicleFile.open(car), VehicleFile.open("s_class")
+    assert file.default == "B" and set(file.sets) == {*own.sets, "A", "B"}
+    assert own.path.read_text(encoding="utf-8").splitlines()[0] == car.read_text(encoding="utf-8").splitlines()[0]
+    for name in own.sets:
+        assert file.vehicle(name).front == own.vehicle(name, {"rear.spring_ratio": 0.8}).front
+    verdict = json.loads((folder / "out" / "verdict.json").read_text(encoding="utf-8"))
+    for attempt in verdict["attempts"]:
+        vehicle = file.vehicle(attempt["name"])
+        rate = attempt["values"]["rear.damping"]["value"]
+        assert float(vehicle.axle("rear").damper.force_at(0.1)) == pytest.approx(0.1 * rate * 2 / 3)
+
+
+@pytest.mark.parametrize("case", ["step of 70.0 mm", "roll"])
+def test_the_kept_car_meets_its_targets_when_it_is_run_again(folder, case):
+    file = folder / "out" / "cases" / f"{case.replace(' ', '_')}.toml"
+    done = call("run", str(file), "--strict", "--out", str(folder / "again" / case), cwd=folder)
+    assert done.returncode == 0, done.stderr + done.stdout
+
+
+def test_assessing_the_written_car_keeps_it(folder):
+    text = (folder / "mine.toml").read_text(encoding="utf-8")
+    text = text.replace('"s_class"', '"out/s_class.toml"').replace('characteristics = "configuration_4"', "")
+    (folder / "assess.toml").write_text('start = "car"\n' + text, encoding="utf-8")
+    targets, path = load_targets(folder / "assess.toml")
+    story = lay_out(targets, path, folder / "assessed")
+    assert len(story.attempts) == 1 and story.kept is not None
+
+
+def test_curves_at_the_component_do_the_same_work(folder):
+    lines = (folder / "out" / "components" / "rear_spring.csv").read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "travel [m],force [N]"
+    rows = [tuple(map(float, line.split(","))) for line in lines[1:]]
+    spring = VehicleFile.open(folder / "out" / "s_class.toml").vehicle().axle("rear").spring
+    for s, force in rows[:: len(rows) // 20]:
+        assert force * 0.8 == pytest.approx(float(spring.force_at(s / 0.8)), rel=1e-4)
+
+
+def test_a_resumed_cycle_simulates_nothing_and_says_the_same(folder):
+    out = folder / "out"
+    before = (out / "verdict.json").read_bytes(), (out / "state" / "runs.jsonl").read_bytes()
+    targets, path = load_targets(folder / "mine.toml")
+    lay_out(targets, path, out, resume=True)
+    assert ((out / "verdict.json").read_bytes(), (out / "state" / "runs.jsonl").read_bytes()) == before
+
+
+def test_branches_stay(folder):
+    targets, path = load_targets(folder / "mine.toml")
+    out = folder / "branched"
+    lay_out(targets, path, out)
+    story = lay_out(targets, path, out, branch=Branch("A", {"rear.damping": 2500.0}))
+    assert [each.name for each in story.attempts] == ["A", "B", "C"] and story.attempts[2].parent == "A"
+    assert story.kept.values["rear.damping"] == (2500.0, "N s/m")
+    again = lay_out(targets, path, out, resume=True)
+    assert [each.name for each in again.attempts] == ["A", "B", "C"]
+    with pytest.raises(InputError, match="no candidate 'Z'"):
+        lay_out(targets, path, out, branch=Branch("Z", {}))
+    assert [each.name for each in lay_out(targets, path, out, resume=True).attempts] == ["A", "B", "C"]
+
+
+def test_stopped_at_any_moment_and_resumed_it_says_the_same(folder):
+    """kill -9 in the middle of the runs, three times in a row, then resumed to the end."""
+    out = folder / "killed"
+    command = [sys.executable, "-m", "design.cli", "design", str(folder / "mine.toml"), "--out", str(out)]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    moment = random.Random(7)
+    ledger = out / "state" / "runs.jsonl"
+    for attempt in range(3):
+        process = subprocess.Popen(
+            [*command, *(["--resume"] if attempt else [])],
+            env=environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        wanted = (ledger.read_bytes().count(b"\n") if ledger.is_file() else 0) + moment.randint(1, 8)
+        while process.poll() is None and (not ledger.is_file() or ledger.read_bytes().count(b"\n") < wanted):
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        assert not (out / "verdict.json").exists() or attempt
+    done = subprocess.run(
+        [*command, "--resume"], env=environment, capture_output=True, text=True, timeout=300, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert (out / "verdict.json").read_bytes() == (folder / "out" / "verdict.json").read_bytes()
+
+
+def test_a_line_that_was_cut_off_is_left_out(bench):
+    table = bench()
+    outcomes = cycle(table.layout, table.ledger.ask)
+    whole = table.ledger.path.read_bytes()
+    table.ledger.path.write_bytes(whole + b'{"key": "abc", "fai')
+    again = bench().ledger
+    assert again.path.read_bytes() == whole and len(again.known) == len(table.ledger.known)
+    repeated = cycle(table.layout, again.ask)
+    assert again.simulated == 0
+    assert [each.findings for each in repeated] == [each.findings for each in outcomes]
+
+
+def test_a_car_of_one_set_beside_its_tyre(tmp_path):
+    """A user's own file without sets: the candidates become its sets, what lies beside it comes along."""
+    source = VehicleFile.open("s_class")
+    document = tomlkit.parse(source.path.read_text(encoding="utf-8"))
+    chosen = document.pop("characteristics")["configuration_4"]
+    document.pop("default")
+    document.pop("sources")
+    for axle in ("front", "rear"):
+        document[axle].update(chosen[axle])
+        tyre = load_vehicle("s_class")
+        file = Path(document[axle]["handling_tyre"]["file"]).name
+        document[axle]["handling_tyre"]["file"] = f"my_{file}"
+        (tmp_path / f"my_{file}").write_bytes((source.path.parent / "tyres" / file).read_bytes())
+    assert tyre.name == "s_class"
+    (tmp_path / "own.toml").write_text(tomlkit.dumps(document), encoding="utf-8")
+    text = TARGETS.replace('"s_class"', '"own.toml"').replace('characteristics = "configuration_4"', "")
+    (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
+    targets, path = load_targets(tmp_path / "mine.toml")
+    lay_out(targets, path, tmp_path / "out")
+    file = VehicleFile.open(tmp_path / "out" / "own.toml")
+    assert file.default == "B" and set(file.sets) == {"A", "B"}
+    assert list((tmp_path / "out").glob("my_*.tir"))
