@@ -19,8 +19,8 @@ from evaluation.numbers.number import Number, Verdict
 if TYPE_CHECKING:
     from evaluation.characteristics import Characteristic
     from evaluation.compare import Comparison
-    from evaluation.validation import Findings
     from evaluation.story import Finding, Story
+    from evaluation.validation import Findings
     from susp_mj.linear import Linear, Mode
     from vehicles.reading import VehicleFile
 
