@@ -88,7 +88,7 @@ class Layout:
         car = self.own(self.targets.characteristics)
         for i, check in enumerate(self.targets.check):
             try:
-                read_manoeuvre(check.manoeuvre)
+                read_manoeuvre(check.manoeuvre, self.path)
             except InputError as error:
                 raise error.within(key=f"check.{i}") from None
         asked = [("loads", self.targets.loads)]

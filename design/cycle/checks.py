@@ -23,7 +23,7 @@ def check(tried: Tried, asked: Check, only: Collection[str] | None = None) -> It
     Args:
         only: places, as findings name them, beyond which nothing is run.
     """
-    manoeuvre = read_manoeuvre(asked.manoeuvre, tried.layout.path.name)
+    manoeuvre = read_manoeuvre(asked.manoeuvre, tried.layout.path)
     title = f"{manoeuvre.declared().title}, {asked.model}"
     bands = {name: band.criterion(NUMBERS[name].unit, name) for name, band in asked.criteria.items()}
     places = places_of(tried, asked, only)

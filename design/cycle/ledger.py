@@ -147,7 +147,7 @@ class Ledger:
         return run
 
     def _prepared(self, asked: Asked) -> _Prepared:
-        manoeuvre = read_manoeuvre(asked.manoeuvre, self.file.name)
+        manoeuvre = read_manoeuvre(asked.manoeuvre, self.file)
         try:
             return _Prepared(asked, manoeuvre, build(asked.car, asked.model, asked.load, asked.axle, manoeuvre.rig))
         except InputError as error:
