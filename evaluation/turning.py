@@ -18,6 +18,8 @@ ROWS = {
     "lateral_acceleration_max": "largest lateral acceleration",
     "roll_angle_at_4": "roll at 4 m/s²",
     "roll_angle_at_7": "roll at 7 m/s²",
+    "suspension_roll_at_4": "of the suspension, at 4 m/s²",
+    "suspension_roll_at_7": "of the suspension, at 7 m/s²",
     "roll_angle_max": "largest roll",
     "inner_wheel_load_front": "least load of the inner front wheel",
     "inner_wheel_load_rear": "least load of the inner rear wheel",

@@ -7,13 +7,16 @@ everything is positive in the direction of the turn.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from susp_mj.names import AXLES
 from susp_mj.run import Run
 
 from .number import Answer, Measure, no_question
-from .runs import DRIVES, facts, known
-from .turns import FIT, TIGHTENED, followed, load_transfer, tightening
+from .runs import DRIVES, facts, known, recorded
+from .turns import FIT, TIGHTENED, followed, load_transfer, stations_of, tightening
 
 _LEAST = 0.5  # m/s²; less is no turn
 
@@ -81,6 +84,36 @@ def roll_angle_at_7(run: Run) -> Answer:
     return _at(run, "roll_angle", 7.0)
 
 
+def suspension_roll_at_4(run: Run) -> Answer:
+    """Roll of the body against its wheels at a lateral acceleration of 4 m/s² [rad]: mean over the axles of ``(z_o -
+    z_i)/t``.
+
+    z_o and z_i are the deflections of the outer and the inner suspension, t is the track.
+    """
+    return _suspension_roll_at(run, 4.0)
+
+
+def suspension_roll_at_7(run: Run) -> Answer:
+    """Roll of the body against its wheels at a lateral acceleration of 7 m/s² [rad]: mean over the axles of ``(z_o -
+    z_i)/t``.
+
+    z_o and z_i are the deflections of the outer and the inner suspension, t is the track.
+    """
+    return _suspension_roll_at(run, 7.0)
+
+
+def _suspension_roll_at(run: Run, acceleration: float) -> Answer:
+    turning, rolls = tightening(run), []
+    for axle in AXLES:
+        left, right = (run[f"{station}_suspension_deflection"] for station in stations_of(axle))
+        roll = turning.side * (right - left) / facts(run)[f"track_{axle}"]
+        rolls.append(turning.at(turning.part(roll - roll[0]), acceleration))
+    front, rear = rolls
+    if front is None or rear is None:
+        return Answer(None, f"does not reach {acceleration:g} m/s²")
+    return Answer((front + rear) / 2, f"{math.degrees(front):.2f}° front, {math.degrees(rear):.2f}° rear")
+
+
 def side_slip_gradient(run: Run) -> Answer:
     """Side slip angle per lateral acceleration at the centre of gravity [rad/(m/s²)]: ``SG = d(l_r a_y/v² -
     beta)/d(a_y)``.
@@ -135,6 +168,7 @@ def _fitted(value: float | None) -> str:
     return f"does not reach {FIT[1]:g} m/s²" if value is None else f"between {FIT[0]:g} and {FIT[1]:g} m/s²"
 
 
+DEFLECTIONS = known("track_front", "track_rear") & recorded("suspension_deflection")
 NUMBERS = (
     Measure(lateral_acceleration_max, "m/s²", DRIVES),
     Measure(understeer_gradient, "rad/(m/s²)", TIGHTENED & known("wheelbase", "steering_ratio")),
@@ -143,6 +177,8 @@ NUMBERS = (
     Measure(steering_wheel_angle_at_7, "rad", TIGHTENED),
     Measure(roll_angle_at_4, "rad", TIGHTENED),
     Measure(roll_angle_at_7, "rad", TIGHTENED),
+    Measure(suspension_roll_at_4, "rad", TIGHTENED & DEFLECTIONS),
+    Measure(suspension_roll_at_7, "rad", TIGHTENED & DEFLECTIONS),
     Measure(side_slip_gradient, "rad/(m/s²)", TIGHTENED & known("wheelbase", "cg_x")),
     Measure(rear_side_slip_max, "rad", DRIVES),
     Measure(load_transfer_share_at_4, "1", TIGHTENED),

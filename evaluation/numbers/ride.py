@@ -59,19 +59,37 @@ def overshoot(run: Run) -> Answer:
 
 
 def settling_time(run: Run) -> Answer:
-    """Time from the first input until the body stays within ±5 % of its largest departure from the final height [s]."""
+    """Time from the first input until the body stays within ±5 % of its largest departure from the final height, or
+    where friction holds it [s].
+
+    Friction holds the body where every spring's force differs by no more than the run's largest friction force from the
+    final one: there it would rest, and what still moves is creep of the friction law.
+    """
     displacement = run["body_displacement"]
     start = _first_input(run)
     departure = np.abs(displacement - final_value(displacement))
     band = SETTLED_BAND * float(departure.max())
-    outside = np.flatnonzero(departure > band)
     if band == 0.0 or start is None:
         return Answer(None, "nothing moves")
+    outside = np.flatnonzero((departure > band) & ~_held_by_friction(run))
+    if not len(outside) or outside[-1] < start:
+        return Answer(0.0, "friction holds the body")
     if outside[-1] >= len(departure) - 2:
         return Answer(None, "not settled within the run")
-    return Answer(
-        float(run.time[outside[-1] + 1] - run.time[start]), f"within 5 % of {1000 * float(departure.max()):.1f} mm"
-    )
+    last = outside[-1] + 1
+    within = f"within 5 % of {1000 * float(departure.max()):.1f} mm"
+    if departure[last:].max() > band:
+        within = f"friction holds it {1000 * float(departure[last]):.1f} mm from where it ends"
+    return Answer(float(run.time[last] - run.time[start]), within)
+
+
+def _held_by_friction(run: Run) -> np.ndarray:
+    """(n,) whether friction can keep every spring from its final force; nowhere in a run without friction."""
+    springs, frictions = run.stations("spring_force"), run.stations("friction_force")
+    held = np.full(len(run.time), bool(springs) and springs.keys() == frictions.keys())
+    for station, force in springs.items() if held.any() else ():
+        held &= np.abs(force - _final(force)) < np.abs(frictions[station]).max()
+    return held
 
 
 def wheel_load_min(run: Run) -> Answer:

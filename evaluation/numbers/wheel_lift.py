@@ -73,6 +73,43 @@ def wheel_lift_acceleration(run: Run) -> Answer:
     return Answer(found[0].acceleration, found[0].station) if found else Answer(None, NONE_LIFTS)
 
 
+def inner_lift_time_front(run: Run) -> Answer:
+    """Time for which the inner front wheel is lifted [s]; 0 if it stays down."""
+    return _inner_lift_time(run, 0)
+
+
+def inner_lift_time_rear(run: Run) -> Answer:
+    """Time for which the inner rear wheel is lifted [s]; 0 if it stays down."""
+    return _inner_lift_time(run, 1)
+
+
+def inner_lift_instant_front(run: Run) -> Answer:
+    """First instant at which the inner front wheel lifts [s]; no value if it stays down."""
+    return _inner_lift_instant(run, 0)
+
+
+def inner_lift_instant_rear(run: Run) -> Answer:
+    """First instant at which the inner rear wheel lifts [s]; no value if it stays down."""
+    return _inner_lift_instant(run, 1)
+
+
+def _inner_lift_time(run: Run, order: int) -> Answer:
+    found = _inner_lift(run, order)
+    return Answer(0.0, f"{inner(run)[order]} stays down") if found is None else Answer(found.lasts, found.station)
+
+
+def _inner_lift_instant(run: Run, order: int) -> Answer:
+    found = _inner_lift(run, order)
+    if found is None:
+        return Answer(None, f"{inner(run)[order]} stays down")
+    return Answer(found.time, f"{found.station} at {found.acceleration:.2f} m/s²")
+
+
+def _inner_lift(run: Run, order: int) -> Lift | None:
+    """How an inner wheel lifts, of the front (0) or rear (1) axle."""
+    return next((each for each in lifts(run) if each.station == inner(run)[order]), None)
+
+
 def inner_wheel_load_front(run: Run) -> Answer:
     """Smallest load of the inner front wheel in the turn [N]."""
     return _inner_load(run, 0)
@@ -107,6 +144,10 @@ NUMBERS = (
     Measure(wheel_lift_time, "s", TURNS),
     Measure(wheel_lift_instant, "s", TURNS),
     Measure(wheel_lift_acceleration, "m/s²", TURNS),
+    Measure(inner_lift_time_front, "s", TURNS),
+    Measure(inner_lift_time_rear, "s", TURNS),
+    Measure(inner_lift_instant_front, "s", TURNS),
+    Measure(inner_lift_instant_rear, "s", TURNS),
     Measure(inner_wheel_load_front, "N", TURNS),
     Measure(inner_wheel_load_rear, "N", TURNS),
 )

@@ -10,9 +10,11 @@ import pytest
 from evaluation.display import band_text
 from evaluation.numbers import NUMBERS, Answer, Criterion, Measure, Number, Verdict, evaluate, recorded, register
 from evaluation.numbers.frequency import amplification
-from manoeuvres import VerticalSweep
-from susp_mj import InputError
+from manoeuvres import RoadStep, VerticalSweep
+from susp_mj import InputError, simulate
 from susp_mj.meaning import Input
+from vehicles import load_vehicle
+from vehicles.mjcf import build
 
 from ..builders.runs import changed, run_of
 
@@ -97,6 +99,47 @@ def test_settling_towards_a_new_height():
     assert value_of("settling_time", make(body_displacement=z, road_height=road)) == pytest.approx(
         tau * np.log(20), abs=2 * STEP
     )
+
+
+def creeping(friction, rate=20_000.0, step=0.03):
+    """A body that falls short of a step by what friction holds and creeps on, as a regularised friction law lets it."""
+    held = friction / rate
+    z = np.where(
+        TIME < 1.0, 0.0, step - held * np.exp(-(TIME - 1.0) / 2.0) - (step - held) * np.exp(-(TIME - 1.0) / 0.1)
+    )
+    return make(
+        body_displacement=z,
+        road_height=np.where(TIME <= 1.0, 0.0, step),
+        spring_force=4743.0 + rate * (np.where(TIME <= 1.0, 0.0, step) - z),
+        friction_force=np.where((TIME > 1.0) & (TIME < 1.2), friction, 0.5 * friction),
+    )
+
+
+def test_friction_that_creeps_does_not_settle_late():
+    """What creeps within the force that friction holds has settled: as soon as the quick part is over, not seconds after
+    the step."""
+    run = creeping(150.0)
+    assert value_of("settling_time", run) == pytest.approx(0.3, abs=0.15)
+    assert "friction holds it" in NUMBERS["settling_time"](run).note
+    without = replace(run, channels={name: each for name, each in run.channels.items() if name != "friction_force"})
+    assert value_of("settling_time", without) > 2.0
+
+
+def test_friction_that_holds_the_whole_step_settles_at_once():
+    run = creeping(150.0, step=0.006)
+    assert value_of("settling_time", run) == 0.0
+    assert NUMBERS["settling_time"](run).note == "friction holds the body"
+
+
+def test_the_better_damped_car_settles_earlier():
+    """Rear axle of the saloon, full, over 50 mm: 4000 N s/m settle before 1500 N s/m, and friction does not matter."""
+    times = [
+        NUMBERS["settling_time"](
+            simulate(build(load_vehicle("s_class", name), "quarter_1dof", "full", "rear"), RoadStep(height=0.05))
+        ).value
+        for name in ("configuration_3_step_1", "configuration_3")
+    ]
+    assert times[1] < times[0] < 1.0
 
 
 def test_not_settled():
