@@ -19,6 +19,7 @@ from vehicles.mjcf import build, write
 from vehicles.reading import FOLDER, load_vehicle
 
 SALOON = (FOLDER / "s_class.toml").read_text(encoding="utf-8")
+OWN_TYRE = 'file = "pac2002_235_55R17_reconstructed.tir"'
 TYRES = {
     name: (FOLDER / "tyres" / f"{name}.tir").read_text(encoding="utf-8")
     for name in ("pac2002_235_55R17", "mf61_205_60R15")
@@ -82,7 +83,7 @@ def test_a_tyre_file_with_a_missing_coefficient(tmp_path, name, key):
 
 def test_a_car_whose_tyre_file_misses_a_coefficient_names_that_file(tmp_path):
     (tmp_path / "worn.tir").write_text(without(TYRES["pac2002_235_55R17"], "PCY1"), encoding="utf-8")
-    line = line_of_vehicle(tmp_path, changed(SALOON, "pac2002_235_55R17.tir", "worn.tir"))
+    line = line_of_vehicle(tmp_path, changed(SALOON, "pac2002_235_55R17_reconstructed.tir", "worn.tir"))
     assert line == "worn.tir: LATERAL_COEFFICIENTS.PCY1: is required"
 
 
@@ -134,9 +135,7 @@ def test_a_damaged_tyre_file(tmp_path, key, value, line):
 def test_a_pressure_is_refused_where_it_is_written(tmp_path):
     line = line_of_vehicle(
         tmp_path,
-        changed(
-            SALOON, 'file = "pac2002_235_55R17.tir"', 'file = "pac2002_235_55R17.tir"\ninflation_pressure = "2 bar"'
-        ),
+        changed(SALOON, OWN_TYRE, f'{OWN_TYRE}\ninflation_pressure = "2 bar"'),
     )
     assert (
         line == "mine.toml: front.handling_tyre.inflation_pressure: MF 5.2 does not depend on it; take a tyre of MF 6.1"
@@ -146,9 +145,7 @@ def test_a_pressure_is_refused_where_it_is_written(tmp_path):
 def test_a_tyre_that_cannot_carry_the_car(tmp_path):
     line = line_of_vehicle(
         tmp_path,
-        changed(
-            SALOON, 'file = "pac2002_235_55R17.tir"', 'file = "pac2002_235_55R17.tir"\nvertical_stiffness = "10 N/mm"'
-        ),
+        changed(SALOON, OWN_TYRE, f'{OWN_TYRE}\nvertical_stiffness = "10 N/mm"'),
     )
     assert line.startswith(
         "mine.toml: front.handling_tyre.vertical_stiffness: 10000 N/m is not allowed; 5028 N would press"

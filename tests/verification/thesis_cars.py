@@ -40,18 +40,25 @@ S_CLASS_LOADS = {
 }
 DAMPER_3, DAMPER_4 = zoned_damper([1500, 900], [0.2], 1, 2), zoned_damper([4000, 1200], [0.2], 1, 2)
 S_CLASS = {
+    "configuration_3_step_1": CarData(
+        3.081,
+        0.32,
+        S_CLASS_LOADS,
+        s_class_axle(1.2, 2211.0, DAMPER_3, 0.0, 1.4, 0.08),
+        s_class_axle(1.1, 3017.0, DAMPER_3, 0.0, 1.1, 0.12),
+    ),
     "configuration_3": CarData(
         3.081,
         0.32,
         S_CLASS_LOADS,
-        s_class_axle(1.2, 2211.0, DAMPER_3, 25286.0, 1.4, 0.08),
-        s_class_axle(1.1, 3017.0, DAMPER_3, 14387.0, 1.1, 0.12),
+        s_class_axle(1.2, 2211.0, DAMPER_4, 25286.0, 1.4, 0.08),
+        s_class_axle(1.1, 3017.0, DAMPER_4, 14387.0, 1.1, 0.12),
     ),
     "configuration_4": CarData(
         3.081,
         0.32,
         S_CLASS_LOADS,
-        s_class_axle(1.5, 675.0, DAMPER_4, 7118.0, 1.4, 0.08),
+        s_class_axle(1.4, 188.0, DAMPER_4, 7118.0, 1.4, 0.08),
         s_class_axle(1.3, 1551.0, DAMPER_4, 0.0, 1.1, 0.12),
     ),
 }
