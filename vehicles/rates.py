@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -30,6 +31,19 @@ def rate_around(spring: Spring, deflection: float, reach: float = 1e-3) -> float
     """Mean rate [N/m] of a spring over `reach` [m] to both sides of a deflection: at a kink the mean of its sides."""
     low, high = deflection - reach, deflection + reach
     return float(spring.force_at(high) - spring.force_at(low)) / (high - low)
+
+
+def damping_ratio(vehicle: Vehicle, axle: str, load: str, damping: float) -> float:
+    """Damping ratio of the body on one wheel's spring, ``D/(2 sqrt(k m))``, k over ±1 mm around the static deflection.
+
+    Friction is left out.
+
+    Args:
+        damping: D [N s/m], the mean of compression and rebound.
+    """
+    spring, mass = vehicle.axle(axle).spring, vehicle.corner_mass(axle, load)
+    stiffness = rate_around(spring, static_deflection(spring, mass * GRAVITY))
+    return damping / (2 * math.sqrt(stiffness * mass))
 
 
 def roll_lever(vehicle: Vehicle, load: str = DESIGN_LOAD) -> float:

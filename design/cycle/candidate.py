@@ -32,7 +32,7 @@ class Candidate:
         because: why it is tried.
         parent: name of the candidate that it was made from; empty for a first one.
         changed: knobs in which it differs from the parent, or from the set.
-        repair, bars: as of `ByHand`.
+        repair, bars, through: as of `ByHand`.
     """
 
     name: str
@@ -43,12 +43,20 @@ class Candidate:
     changed: tuple[str, ...] = ()
     repair: bool = True
     bars: bool = True
+    through: str | None = None
 
     def turn(self, name: str, because: str, changes: Values) -> Candidate:
         """A child in which further knobs are turned."""
         turned = {**self.turned, **changes}
         return replace(
-            self, name=name, turned=turned, because=because, parent=self.name, changed=tuple(changes), repair=True
+            self,
+            name=name,
+            turned=turned,
+            because=because,
+            parent=self.name,
+            changed=tuple(changes),
+            repair=True,
+            through=None,
         )
 
 
@@ -168,7 +176,7 @@ class Layout:
                     source=self.path.name,
                 )
             child = earlier[asked.parent].turn(name, asked.because, changes)
-            return replace(child, repair=asked.repair, bars=asked.bars)
+            return replace(child, repair=asked.repair, bars=asked.bars, through=asked.through)
         start = asked.start or ("car" if asked.characteristics is not None else self.targets.start)
         values = {**(self._from_targets() if start == "targets" else {}), **changes}
         return Candidate(
@@ -179,6 +187,7 @@ class Layout:
             changed=tuple(values),
             repair=asked.repair,
             bars=asked.bars,
+            through=asked.through,
         )
 
     def _from_targets(self) -> dict[str, float | str]:

@@ -12,7 +12,7 @@ from evaluation.story import Finding
 from susp_mj.elements import GRAVITY
 from susp_mj.errors import InputError
 from susp_mj.names import AXLES
-from vehicles.rates import RollNeeds, rate_around, roll_needs, static_deflection
+from vehicles.rates import RollNeeds, damping_ratio, rate_around, roll_needs, static_deflection
 from vehicles.vehicle import DESIGN_LOAD, Vehicle
 
 from .candidate import Candidate, Layout
@@ -22,8 +22,6 @@ from .targets import Limits
 Ask = Callable[[list[Asked]], list[Answered]]
 EVEN = 0.01
 """Share of an axle's need by which springs may exceed it before a bar of zero is a miss."""
-STEPS = ("characteristics", "load range", "frequencies", "damping", "steps", "bars", "roll")
-"""What findings of this stage call their steps."""
 ONE_MASS = "quarter_1dof"
 """Model on which steps of the road are tried: the wheel follows the road."""
 ON_STEPS = ("stop_hits", "overshoot", "contact_loss_time")
@@ -219,7 +217,7 @@ def damping(tried: Tried) -> Iterator[Finding]:
         for load in targets.loads:
             spring, mass = tried.car.axle(name).spring, tried.car.corner_mass(name, load)
             stiffness = rate_around(spring, static_deflection(spring, mass * GRAVITY))
-            ratio = rate / (2 * math.sqrt(stiffness * mass))
+            ratio = damping_ratio(tried.car, name, load, rate)
             low = targets.dampers.ratio.min
             side = "under" if low is not None and ratio < low else "over"
             yield _banded(

@@ -56,7 +56,8 @@ class Outcome:
 
 
 def assess(layout: Layout, candidate: Candidate, ask: Ask, heard: Heard = lambda candidate, finding: None) -> Outcome:
-    """Hold a candidate against the targets, step by step up to the first step in which it misses one."""
+    """Hold a candidate against the targets, step by step up to the first in which it misses one, or to the one that it
+    shall go through."""
     findings: list[Finding] = []
 
     def failed(found: Iterable[Finding]) -> list[Finding]:
@@ -70,16 +71,21 @@ def assess(layout: Layout, candidate: Candidate, ask: Ask, heard: Heard = lambda
     if wrong is not None:
         failed([wrong])
         return Outcome(candidate, tuple(findings), Repair({}, "these knobs make no spring or damper"))
+    missed: list[Finding] = []
+    goes_on = candidate.through is not None
     for step in _steps(layout, candidate, ask):
         candidate = step.tried.candidate
-        missed = failed(step.findings)
-        if missed:
-            return Outcome(candidate, tuple(findings), repair(step.tried, missed, step.repair))
+        missed += failed(step.findings)
+        goes_on = goes_on and step.name != candidate.through
+        if missed and not goes_on:
+            first = [each for each in missed if each.step == missed[0].step]
+            return Outcome(candidate, tuple(findings), repair(step.tried, first, step.repair))
     return Outcome(candidate, tuple(findings), None)
 
 
 @dataclass(frozen=True)
 class _Step:
+    name: str
     tried: Tried
     findings: Iterable[Finding]
     repair: str | None = None
@@ -88,16 +94,21 @@ class _Step:
 def _steps(layout: Layout, candidate: Candidate, ask: Ask) -> Iterator[_Step]:
     """Every step of the cycle in its order; the bars are laid out on the way."""
     tried = Tried(layout, candidate, layout.vehicle(candidate), ask)
-    for step in (load_range, frequencies, damping, steps):
-        yield _Step(tried, step(tried))
+    for name, step in (
+        ("load range", load_range),
+        ("frequencies", frequencies),
+        ("damping", damping),
+        ("steps", steps),
+    ):
+        yield _Step(name, tried, step(tried))
     needs = needs_of(tried)
     if needs is not None:
         if candidate.bars:
-            yield _Step(tried, bars(tried, needs))
+            yield _Step("bars", tried, bars(tried, needs))
             tried = with_bars(tried, needs)
-        yield _Step(tried, rolled(tried))
+        yield _Step("roll", tried, rolled(tried))
     for asked in layout.targets.check:
-        yield _Step(tried, check(tried, asked), asked.repair)
+        yield _Step(asked.name, tried, check(tried, asked), asked.repair)
 
 
 def with_bars(tried: Tried, needs: RollNeeds) -> Tried:

@@ -22,6 +22,8 @@ from ..case import Band
 from .knobs import KNOBS, REPAIRS, ratio_of, ratio_text
 
 FOLDER = Path(__file__).parent.parent / "cycles"
+STEPS = ("characteristics", "load range", "frequencies", "damping", "steps", "bars", "roll")
+"""Steps that hold the characteristics against the targets, as findings name them; the checks follow."""
 Axle = Literal["front", "rear"]
 Share = Annotated[float, Quantity("", ge=0, le=1)]
 PositiveAcceleration = Annotated[float, Quantity("m/s²", gt=0)]
@@ -212,6 +214,7 @@ class ByHand(Description):
         because: why, one phrase.
         repair: whether what it misses is repaired in further candidates.
         bars: whether the bars are laid out anew for it.
+        through: step of the characteristics up to which it goes on although it misses an earlier one.
     """
 
     name: str | None = Field(default=None, min_length=1, max_length=40)
@@ -222,6 +225,7 @@ class ByHand(Description):
     because: str = "set by hand"
     repair: bool = True
     bars: bool = True
+    through: Annotated[str, one_of(STEPS)] | None = None
 
     @model_validator(mode="after")
     def _known_knobs(self) -> ByHand:

@@ -15,12 +15,13 @@ from susp_mj.recording import versions
 from susp_mj.run import Run
 
 from .candidate import Candidate, Layout
-from .characteristics import STEPS, Ask, Tried
+from .characteristics import Ask, Tried
 from .checks import place_name, places_of, run_of, trade_offs
 from .components import component_rows
 from .cycling import Outcome, attempt, verdict
 from .ledger import Answered, Asked, Ledger
 from .reach import reach
+from .targets import STEPS
 
 SHOWN = 6
 """So many candidates are shown on the steps, the last ones."""
