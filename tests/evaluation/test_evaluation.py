@@ -116,8 +116,7 @@ def creeping(friction, rate=20_000.0, step=0.03):
 
 
 def test_friction_that_creeps_does_not_settle_late():
-    """What creeps within the force that friction holds has settled: as soon as the quick part is over, not seconds after
-    the step."""
+    """What creeps within the force that friction holds has settled: once the quick part is over, not seconds later."""
     run = creeping(150.0)
     assert value_of("settling_time", run) == pytest.approx(0.3, abs=0.15)
     assert "friction holds it" in NUMBERS["settling_time"](run).note
