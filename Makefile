@@ -9,6 +9,7 @@ OUT ?= out/demo
 
 demo: $(VENV)/installed-video
 	$(BIN)/susp-mj demo --out $(OUT)
+	$(BIN)/susp-mj reproduce --out $(OUT)/reproduce
 
 test: $(VENV)/installed-test
 	bash scripts/test_needs.sh

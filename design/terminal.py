@@ -18,7 +18,8 @@ from evaluation.numbers.number import Number, Verdict
 
 if TYPE_CHECKING:
     from evaluation.characteristics import Characteristic
-    from evaluation.compare import Comparison
+    from evaluation.compare import Claim, Comparison
+    from evaluation.reproduction import Reproduction
     from evaluation.story import Finding, Story
     from evaluation.validation import Findings
     from susp_mj.linear import Linear, Mode
@@ -141,19 +142,34 @@ def _signed(value: float, unit: str) -> str:
     return text if text.startswith("−") else f"+{text}"
 
 
-def print_claims(comparison: Comparison) -> None:
-    """Published claims beside results."""
-    table = Table(title="Claims of the thesis", box=SIMPLE_HEAD, title_justify="left")
-    for column in ("claim", "expected", "result", ""):
+def print_claims(title: str, claims: Sequence[Claim]) -> None:
+    """Published claims beside results, with the reasons below."""
+    table = Table(title=title, box=SIMPLE_HEAD, title_justify="left")
+    for column in ("claim", "source", "thesis", "here", ""):
         table.add_column(column)
-    for claim in comparison.claims:
-        table.add_row(
-            Text(claim.text),
-            claim.expected,
-            claim.result,
-            Text("holds", "green") if claim.holds else Text("FAILS", "bold red"),
-        )
+    for claim in claims:
+        style = "green" if claim.holds else "yellow" if claim.known else "bold red"
+        texts = (claim.text, claim.source, claim.expected, claim.result)
+        table.add_row(*(Text(each) for each in texts), Text(claim.verdict, style))
+        if claim.why:
+            table.add_row("", "", "", Text(claim.why, "dim"), "")
     _console().print(table)
+
+
+def print_reproduction(reproduction: Reproduction) -> None:
+    """Every claim beside its result, the tables beside them, the verdict."""
+    console = _console()
+    for part in reproduction.parts:
+        print_claims(part.title, part.claims)
+        for each in part.tables:
+            table = Table(title=each.title, box=SIMPLE_HEAD, title_justify="left")
+            for name in each.columns:
+                table.add_column(name)
+            for row in each.rows:
+                table.add_row(*(Text(text) for text in row))
+            console.print(table)
+            console.print(Text(each.note, "dim"))
+    console.print(Text(reproduction.verdict, "bold green" if reproduction.passed else "bold red"))
 
 
 def print_sheet(car: VehicleFile) -> None:

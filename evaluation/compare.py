@@ -76,16 +76,39 @@ class Claim:
     """A published statement beside what came out.
 
     Attributes:
-        text: the statement, with its source.
+        text: the statement.
         expected: what it says, e.g. "11.24 ± 0.05 m/s²".
         result: what came out, e.g. "11.241 m/s²".
         holds: whether it does.
+        source: where it is published, e.g. "figure 3.4".
+        why: what explains the result, a sentence or two.
+        known: whether it is known not to hold, `why` being the reason.
     """
 
     text: str
     expected: str
     result: str
     holds: bool
+    source: str = ""
+    why: str = ""
+    known: bool = False
+
+    @property
+    def verdict(self) -> str:
+        """In words whether it holds."""
+        return "agrees" if self.holds else "does not agree, as is known" if self.known else "does not agree"
+
+    def plain(self) -> dict[str, Any]:
+        """As JSON values."""
+        return {
+            "text": self.text,
+            "source": self.source,
+            "expected": self.expected,
+            "result": self.result,
+            "holds": bool(self.holds),
+            "known": self.known,
+            "why": self.why,
+        }
 
 
 @dataclass(frozen=True)

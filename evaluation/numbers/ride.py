@@ -88,7 +88,7 @@ def _held_by_friction(run: Run) -> np.ndarray:
     springs, frictions = run.stations("spring_force"), run.stations("friction_force")
     held = np.full(len(run.time), bool(springs) and springs.keys() == frictions.keys())
     for station, force in springs.items() if held.any() else ():
-        held &= np.abs(force - _final(force)) < np.abs(frictions[station]).max()
+        held &= np.abs(force - final_value(force)) < np.abs(frictions[station]).max()
     return held
 
 

@@ -26,10 +26,7 @@ def write_summary(comparison: Comparison, path: str | Path, extra: Mapping[str, 
     summary = {
         "title": comparison.title,
         "configurations": comparison.summary(),
-        "claims": [
-            {"text": c.text, "expected": c.expected, "result": c.result, "holds": bool(c.holds)}
-            for c in comparison.claims
-        ],
+        "claims": [claim.plain() for claim in comparison.claims],
         "passed": comparison.passed,
         **(extra or {}),
     }

@@ -146,7 +146,7 @@ def test_an_unwritable_folder_is_bad_input(tmp_path):
 def test_demo_reproduces_chapter_3(tmp_path):
     result = call("demo", "--no-video", "--out", str(tmp_path / "demo"))
     assert result.returncode == 0, result.stderr
-    assert result.stdout.count("holds") == 9
+    assert result.stdout.count("agrees") == 9
     assert "FAILS" not in result.stdout
     summary = json.loads((tmp_path / "demo" / "summary.json").read_text())
     assert [claim["holds"] for claim in summary["claims"]] == [True] * 9

@@ -217,9 +217,12 @@ def test_summary_is_strict_json_even_with_values_that_json_lacks(comparison, tmp
     assert entry["numbers"]["settling_time"]["value"] is None
     assert summary["claims"][0] == {
         "text": CLAIMS[0].text,
+        "source": "",
         "expected": CLAIMS[0].expected,
         "result": CLAIMS[0].result,
         "holds": True,
+        "known": False,
+        "why": "",
     }
 
 
