@@ -272,10 +272,11 @@ def list_() -> None:
     """List cars, models, manoeuvres, cases, elements and evaluation numbers."""
     from susp_mj.plugins import load_installed
 
+    from .cycle.targets import available_cycles, load_targets
     from .terminal import print_lists
 
     load_installed()
-    print_lists()
+    print_lists({name: load_targets(name)[0].title for name in available_cycles()})
 
 
 @app.command()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -255,8 +255,8 @@ def _shape(mode: Mode) -> str:
     return ", ".join(words)
 
 
-def print_lists() -> None:
-    """Everything there is to choose from."""
+def print_lists(cycles: Mapping[str, str]) -> None:
+    """Everything there is to choose from; `cycles` are names and titles of the targets files."""
     from evaluation.numbers import NUMBERS
     from manoeuvres import MANOEUVRES
     from susp_mj.elements import DAMPERS, SPRINGS, TYRES
@@ -274,6 +274,7 @@ def print_lists() -> None:
     _print_pairs("Manoeuvres (German name)", first_lines)
     _print_matrix()
     _print_pairs("Cases", {name: _case_title(name) for name in available_cases()})
+    _print_pairs("Targets of a design cycle", dict(cycles))
     _print_pairs("Elements", {"springs": ", ".join(SPRINGS), "dampers": ", ".join(DAMPERS), "tyres": ", ".join(TYRES)})
     _print_pairs("Evaluation numbers", {name: each.description.replace("`", "") for name, each in NUMBERS.items()})
 

@@ -44,6 +44,17 @@ def test_the_case_file_in_the_readme_runs(tmp_path):
     assert [each.name for each in comparison.configurations] == ["as it is", "1:3"]
 
 
+def test_the_targets_file_of_the_guide_is_one(tmp_path):
+    from design.cycle.candidate import Layout
+    from design.cycle.targets import load_targets
+
+    (text,) = re.findall(r"```toml\n(.*?)```", (ROOT / "docs" / "design_cycle.md").read_text(), re.DOTALL)
+    path = tmp_path / "guide.toml"
+    path.write_text(text)
+    layout = Layout.open(*load_targets(path))
+    assert layout.proposed("A").turned["rear.bar"] == 5000.0
+
+
 def test_cited_sources_exist():
     known = set(re.findall(r"^@\w+\{(\w+),", (ROOT / "docs" / "references.bib").read_text(), re.MULTILINE))
     for page in PAGES:
