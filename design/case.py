@@ -15,6 +15,7 @@ from evaluation.validation import Validation
 from manoeuvres import MANOEUVRES, find_manoeuvre
 from susp_mj.description import Description, one_of, validate, wrong
 from susp_mj.errors import InputError, choices
+from susp_mj.files import file_name
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.plugins import load_plugins
 from susp_mj.units import Quantity, to_si
@@ -180,14 +181,15 @@ def load_case(name: str | Path) -> tuple[Case, Path]:
     return validate(Case, tables, source=path.name), path
 
 
+def film_asked(camera: str | None, *, ghost: bool, fine: bool) -> dict[str, str]:
+    """Values of a `Film` that a command line asks for."""
+    asked = {"camera": camera, "layout": "ghost" if ghost else None, "quality": "fine" if fine else None}
+    return {name: value for name, value in asked.items() if value is not None}
+
+
 def with_film(case: Case, camera: str | None, *, ghost: bool, fine: bool) -> Case:
     """The case with its film as asked for on a command line; what is not asked for stays."""
-    asked = {"camera": camera, "layout": "ghost" if ghost else None, "quality": "fine" if fine else None}
-    film = validate(
-        Film,
-        case.film.model_dump() | {name: value for name, value in asked.items() if value is not None},
-        source="video",
-    )
+    film = validate(Film, case.film.model_dump() | film_asked(camera, ghost=ghost, fine=fine), source="video")
     return validate(Case, dict(case) | {"film": film}, source="video")
 
 
@@ -216,8 +218,3 @@ def usual_load(manoeuvre: Manoeuvre | type[Manoeuvre], loads: Container[str]) ->
     """Load case of a car with these `loads` where none is asked for: the manoeuvre's test load if the car has it, else
     the design position."""
     return manoeuvre.test_load if manoeuvre.test_load in loads else DESIGN_LOAD
-
-
-def file_name(label: str) -> str:
-    """A label as a file name: letters, digits, dot, dash and underscore stay."""
-    return "".join(letter if letter.isalnum() or letter in "._-" else "_" for letter in label)

@@ -35,6 +35,9 @@ Out = Annotated[Path, typer.Option("--out", "-o", help="Folder for the results; 
 Video = Annotated[
     bool, typer.Option("--video", help="Also render an animation (needs EGL and ffmpeg, see 'susp-mj doctor').")
 ]
+Camera = Annotated[str | None, typer.Option(help=f"Of a driving car: {offered()}.")]
+Ghost = Annotated[bool, typer.Option("--ghost", help="Two driving cars in one scene, the second translucent.")]
+Fine = Annotated[bool, typer.Option("--fine", help="Finer pictures of driving cars, in about half again the time.")]
 Workers = Annotated[
     int | None, typer.Option("--workers", help="Configurations at a time; default: as many as there are cores.")
 ]
@@ -93,13 +96,9 @@ def run(
     case: Annotated[str, typer.Argument(help="Case file, or the name of a shipped case ('susp-mj list').")],
     out: Annotated[Path | None, typer.Option("--out", "-o", help="Folder for the results; default out/CASE.")] = None,
     video: Video = False,
-    camera: Annotated[str | None, typer.Option(help=f"Of a driving car: {offered()}.")] = None,
-    ghost: Annotated[
-        bool, typer.Option("--ghost", help="Two driving cars in one scene, the second translucent.")
-    ] = False,
-    fine: Annotated[
-        bool, typer.Option("--fine", help="Finer pictures of driving cars, in about half again the time.")
-    ] = False,
+    camera: Camera = None,
+    ghost: Ghost = False,
+    fine: Fine = False,
     strict: Annotated[bool, typer.Option("--strict", help="Exit with 1 if a criterion is not met.")] = False,
     workers: Workers = None,
 ) -> None:
@@ -204,6 +203,57 @@ def drive(
 ) -> None:
     """Drive one manoeuvre on named configurations: susp-mj drive bump --help."""
     _drive(manoeuvre, context.args)
+
+
+@app.command()
+def compare(
+    folders: Annotated[
+        list[Path] | None, typer.Argument(help="Folders with results of 'run', 'drive' or 'compare'.")
+    ] = None,
+    baseline: Annotated[
+        str, typer.Option(help="Configuration that the others are held against; default: the first.")
+    ] = "",
+    out: Out = Path("out/compare"),
+    video: Video = False,
+) -> None:
+    """Put results side by side without simulating: numbers in % of a baseline, criteria, plots on one axis."""
+    from .saved import compare_folders
+    from .terminal import print_comparison
+
+    with _progress() as progress:
+        comparison = compare_folders(folders or (), out, baseline=baseline, video=video, progress=progress)
+    print_comparison(comparison)
+    _say_where(out)
+
+
+@app.command()
+def report(folder: Annotated[Path, typer.Argument(help="Folder with results.")]) -> None:
+    """Write report.html anew from saved results, without simulating."""
+    from .saved import renew_report
+
+    typer.echo(f"report: {renew_report(folder)}")
+
+
+@app.command()
+def film(
+    folder: Annotated[Path, typer.Argument(help="Folder with results.")],
+    camera: Camera = None,
+    ghost: Ghost = False,
+    fine: Fine = False,
+    plugin: Annotated[list[Path] | None, typer.Option(help="Python file that brings a camera, repeatable.")] = None,
+) -> None:
+    """Render the film of saved results, without simulating, and put it into their report."""
+    from susp_mj.plugins import load_installed, load_plugin
+
+    from .case import film_asked
+    from .saved import renew_film
+
+    load_installed()
+    for each in plugin or ():
+        load_plugin(each)
+    with _progress() as progress:
+        path = renew_film(folder, film_asked(camera, ghost=ghost, fine=fine), progress)
+    typer.echo(f"film: {path}")
 
 
 @app.command()

@@ -11,11 +11,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from evaluation.compare import Claim, Comparison
+from evaluation.saving import SAVED, Saved, save
 from susp_mj.errors import InputError, SuspMjError
 from susp_mj.plugins import blamed
 from susp_mj.recording import versions
 
-from .case import Case, file_name
+from .case import Case, Film
 from .running import Report, run_case
 
 
@@ -29,7 +30,8 @@ def carry_out(
     claims: Callable[[Comparison], Sequence[Claim]] | None = None,
     progress: Report = lambda task, done: None,
 ) -> Comparison:
-    """Run a case and leave ``summary.json``, ``runs/*.nc``, ``plots/*.svg``, ``report.html`` and a video in `out`.
+    """Run a case and leave ``summary.json``, ``comparison.json``, ``runs/*.nc``, ``plots/*.svg``, ``report.html`` and a
+    video in `out`.
 
     The folder receives everything at once at the end; after an error it is as it was. Only a video that fails leaves
     the other results there, and its error is raised after them. A run that diverged is kept up to there.
@@ -51,36 +53,45 @@ def carry_out(
         simulated = time.perf_counter() - started
         if video and comparison.configurations:
             try:
-                comparison = replace(comparison, videos=(_make_video(case, comparison, stage, progress),))
+                comparison = replace(comparison, videos=(make_video(case.film, comparison, stage, progress),))
             except SuspMjError as error:
                 no_video = error
-        _write_results(comparison, stage, {"simulate_s": round(simulated, 3)}, progress)
+        write_results(Saved(comparison, case.film.model_dump()), stage, {"simulate_s": round(simulated, 3)}, progress)
     if no_video is not None:
         raise no_video
     return comparison
 
 
-def _make_video(case: Case, comparison: Comparison, stage: Path, progress: Report) -> str:
+def make_video(film: Film, comparison: Comparison, folder: Path, progress: Report) -> str:
+    """Draw the video of a comparison into a folder; returns the name of the file.
+
+    Raises:
+        InputError: runs of several kinds of car, or too many.
+        SuspMjError: the video cannot be made.
+    """
     from evaluation.animation.clip import Clip
     from evaluation.animation.kinds import kind_of
     from evaluation.animation.render import render_video
 
     clips = [Clip(each.name, each.run) for each in comparison.configurations]
-    film = case.film.model_dump()
-    film["quality"] = film["quality"] or kind_of(clips).quality
-    return render_video(clips, stage / "video.mp4", **film, progress=lambda done: progress("render video", done)).name
+    how = film.model_dump()
+    how["quality"] = how["quality"] or kind_of(clips).quality
+    return render_video(clips, folder / "video.mp4", **how, progress=lambda done: progress("render video", done)).name
 
 
-def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float], progress: Report) -> None:
+def write_results(saved: Saved, stage: Path, timings: dict[str, float], progress: Report) -> None:
+    """Write all but the video of results into a folder.
+
+    Raises:
+        InputError: the folder cannot be written.
+    """
     from evaluation.pages.report import write_report
     from evaluation.pages.summary import write_summary
     from evaluation.plots.drawing import draw, save_plots
 
-    started = time.perf_counter()
+    started, comparison = time.perf_counter(), saved.comparison
     progress("write results", 0.0)
-    for each in comparison.outcomes:
-        if each.run is not None:
-            each.run.save(stage / "runs" / f"{file_name(each.name)}.nc")
+    save(saved, stage)
     progress("write results", 0.2)
     plots = draw(comparison)
     progress("write results", 0.8)
@@ -92,7 +103,7 @@ def _write_results(comparison: Comparison, stage: Path, timings: dict[str, float
 
 
 MARKER = "summary.json"
-RESULTS = (MARKER, "report.html", "video.mp4", "runs/*.nc", "plots/*.svg")
+RESULTS = (MARKER, SAVED, "report.html", "video.mp4", "runs/*.nc", "plots/*.svg")
 
 
 @contextmanager

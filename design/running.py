@@ -24,6 +24,7 @@ from susp_mj.plugins import load_plugins
 from susp_mj.recording import Diverged
 from susp_mj.run import Run
 from susp_mj.simulation import MOST_STEPS, simulate
+from susp_mj.units import readable
 from vehicles.mjcf import build
 from vehicles.reading import load_vehicle
 from vehicles.vehicle import Vehicle
@@ -89,6 +90,19 @@ class Prepared:
             "model": meaning.model,
             "manoeuvre": self.manoeuvre.kind,
         }
+
+    @property
+    def asked(self) -> dict[str, Any]:
+        """What its case asks for, in plain JSON values: set of characteristics, axle, step and overrides where it does,
+        and the manoeuvre's parameters; quantities as texts with their units."""
+        setting, step = self.job.setting, self.job.step
+        given = {
+            "characteristics": setting.characteristics,
+            "axle": setting.axle,
+            "step": None if step is None else readable(step, "s"),
+            "set": setting.set,
+        }
+        return {**{key: value for key, value in given.items() if value}, "parameters": self.manoeuvre.readable()}
 
 
 def run_case(
@@ -184,11 +198,19 @@ def simulated(prepared: Prepared, progress: Progress = lambda done: None) -> tup
     job, manoeuvre = prepared.job, prepared.manoeuvre
     try:
         run = simulate(prepared.plant, manoeuvre, step=job.step, record_every=job.record_every, progress=progress)
+    except Diverged as error:
+        error.run = _noted(error.run, prepared)
+        return prepared, error
     except SimulationError as error:
         return prepared, error
     except InputError as error:
         raise _in_case(_of_manoeuvre(error, manoeuvre).within(source=job.path.name), job) from None
-    return prepared, run
+    return prepared, _noted(run, prepared)
+
+
+def _noted(run: Run, prepared: Prepared) -> Run:
+    """The run with what was asked for, so that it says by itself what it is."""
+    return replace(run, meta={**run.meta, "asked": prepared.asked})
 
 
 def _in_case(error: InputError, job: Job) -> InputError:
@@ -229,7 +251,8 @@ def outcome(of: tuple[Prepared, Run | SimulationError]) -> Outcome:
         return _configuration(prepared, run)
     except SimulationError as error:
         until = error.run if isinstance(error, Diverged) else None
-        return Failure(prepared.job.setting.name, prepared.title, prepared.facts, str(error), until)
+        name, title, reason = prepared.job.setting.name, prepared.title, str(error)
+        return Failure(name, title, prepared.facts, reason, until, prepared.asked)
 
 
 def _configuration(prepared: Prepared, run: Run) -> Configuration:

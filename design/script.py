@@ -14,7 +14,7 @@ from susp_mj.description import validate
 from susp_mj.errors import InputError
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.plugins import load_installed, load_plugin
-from susp_mj.units import unit_of
+from susp_mj.units import unit_of_field
 from vehicles.models import MODELS
 from vehicles.reading import VehicleFile
 from vehicles.vehicle import DESIGN_LOAD
@@ -152,7 +152,7 @@ def _parser(kind: str, manoeuvre: type[Manoeuvre]) -> argparse.ArgumentParser:
     group = parser.add_argument_group("parameters", "a number in SI, or a text with its unit like '80 mm'")
     for name, field in manoeuvre.model_fields.items():
         if name != "kind":
-            unit = unit_of(field.metadata)
+            unit = unit_of_field(field)
             text = f"default {field.default}{' ' + unit if unit else ''}"
             several = "+" if "tuple" in str(field.annotation) else None
             group.add_argument(

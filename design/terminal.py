@@ -33,15 +33,16 @@ def print_comparison(comparison: Comparison) -> None:
     for each in comparison.configurations:
         table.add_column(each.name, justify="right")
     verdicts = [comparison.verdicts(each) for each in comparison.configurations]
-    for name in comparison.configurations[0].numbers if comparison.configurations else ():
+    for name in dict.fromkeys(name for each in comparison.configurations for name in each.numbers):
         cells = [
-            _cell(each.numbers[name], found.get(name))
+            _cell(each.numbers.get(name), found.get(name))
             for each, found in zip(comparison.configurations, verdicts, strict=True)
         ]
         table.add_row(name, *cells)
     console = _console()
     if comparison.configurations:
         console.print(table)
+    _print_differences(comparison, console)
     _print_turning(comparison, console)
     for each, found in zip(comparison.configurations, verdicts, strict=True):
         failed = [_missed(name, verdict) for name, verdict in found.items() if not verdict.passed]
@@ -52,6 +53,24 @@ def print_comparison(comparison: Comparison) -> None:
             console.print(Text(f"{each.name}: {note}", "dim"))
     for each in comparison.failures:
         console.print(Text(f"{each.name}: no run, {each.reason}", "bold red"))
+
+
+def _print_differences(comparison: Comparison, console: Console) -> None:
+    """Numbers of the others less those of the baseline, in per cent of these."""
+    found = {
+        each.name: differences for each in comparison.configurations if (differences := comparison.differences(each))
+    }
+    if not found:
+        return
+    console.print(Text(comparison.description))
+    table = Table(title=f"Difference to {comparison.baseline}", box=SIMPLE_HEAD, title_justify="left")
+    table.add_column("number")
+    for name in found:
+        table.add_column(Text(name), justify="right")
+    for number in comparison.differing():
+        texts = [differences[number].text if number in differences else "–" for differences in found.values()]
+        table.add_row(number, *texts)
+    console.print(table)
 
 
 def _print_turning(comparison: Comparison, console: Console) -> None:
@@ -326,7 +345,9 @@ def _first_line(thing: object) -> str:
     return (thing.__doc__ or "").split("\n")[0].replace("``", "")
 
 
-def _cell(number: Number, verdict: Verdict | None) -> Text:
+def _cell(number: Number | None, verdict: Verdict | None) -> Text:
+    if number is None:
+        return Text("–")
     style = "" if verdict is None else "green" if verdict.passed else "bold red"
     return Text(quantity_text(number.value, number.unit), style)
 

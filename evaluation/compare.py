@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from susp_mj.run import Run
+from susp_mj.units import readable
 
 from .characteristics import Characteristic
+from .numbers import NUMBERS
+from .numbers.difference import Difference, difference
 from .numbers.number import Criterion, Number, Verdict
 
 if TYPE_CHECKING:
@@ -50,13 +53,18 @@ class Configuration:
             "manoeuvre": meta["manoeuvre"]["kind"],
         }
 
+    @property
+    def asked(self) -> Mapping[str, Any]:
+        """What its case asked for (`design.running.Prepared.asked`); empty of a run that no case asked for."""
+        return self.run.meta.get("asked", {})
+
 
 @dataclass(frozen=True)
 class Failure:
     """A configuration whose run did not come to its end, and why.
 
     Attributes:
-        name, title, facts: as those of a `Configuration`.
+        name, title, facts, asked: as those of a `Configuration`.
         reason: one line.
         run: the run up to there; None if it had not begun.
     """
@@ -66,6 +74,7 @@ class Failure:
     facts: Mapping[str, str]
     reason: str
     run: Run | None = None
+    asked: Mapping[str, Any] = field(default_factory=dict)
 
 
 Outcome = Configuration | Failure
@@ -122,6 +131,8 @@ class Comparison:
         criteria: by number name.
         claims: published statements beside results; empty for a user's own case.
         videos: file names of videos beside the report.
+        baseline: name of the configuration that the others are compared with in per cent; empty for none.
+        descriptions: what numbers are, by name; where it says nothing, `NUMBERS` does.
     """
 
     title: str
@@ -130,6 +141,8 @@ class Comparison:
     criteria: Mapping[str, Criterion] = field(default_factory=dict)
     claims: Sequence[Claim] = ()
     videos: Sequence[str] = ()
+    baseline: str = ""
+    descriptions: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def configurations(self) -> list[Configuration]:
@@ -145,6 +158,26 @@ class Comparison:
         """The criteria held against the numbers of one configuration, by number name."""
         return {name: Verdict(configuration.numbers[name], criterion) for name, criterion in self.criteria.items()}
 
+    def differences(self, configuration: Configuration) -> dict[str, Difference]:
+        """Numbers of a configuration less those of the baseline, by name; empty for the baseline and without one."""
+        baseline = next((each for each in self.configurations if each.name == self.baseline), configuration)
+        if baseline is configuration:
+            return {}
+        return {
+            name: difference(number, baseline.numbers[name])
+            for name, number in configuration.numbers.items()
+            if name in baseline.numbers
+        }
+
+    def differing(self) -> list[str]:
+        """Names of the numbers in which a configuration can be told from the baseline: both have a value."""
+        found = [self.differences(each) for each in self.configurations]
+        return list(dict.fromkeys(name for each in found for name, known in each.items() if known.value is not None))
+
+    def description_of(self, number: str) -> str:
+        """What a number is; empty where nobody knows."""
+        return self.descriptions.get(number) or (NUMBERS[number].description if number in NUMBERS else "")
+
     @property
     def passed(self) -> bool:
         """Whether every configuration has a run and meets every criterion."""
@@ -156,7 +189,7 @@ class Comparison:
         return [self._summary(each) for each in self.outcomes]
 
     def _summary(self, outcome: Outcome) -> dict[str, Any]:
-        what = {"configuration": outcome.name, **outcome.facts}
+        what = {"configuration": outcome.name, **outcome.facts, "asked": _asked(outcome)}
         if isinstance(outcome, Failure):
             return {**what, "failed": outcome.reason, "modes": [], "numbers": {}, "criteria": {}}
         return {
@@ -167,4 +200,15 @@ class Comparison:
                 for name, number in outcome.numbers.items()
             },
             "criteria": {name: verdict.plain() for name, verdict in self.verdicts(outcome).items()},
+            **self._differences(outcome),
         }
+
+    def _differences(self, configuration: Configuration) -> dict[str, Any]:
+        found = self.differences(configuration)
+        return {"differences": {name: each.plain() for name, each in found.items()}} if found else {}
+
+
+def _asked(outcome: Outcome) -> dict[str, Any]:
+    """What the case asked for, and the step that the run was integrated with."""
+    step = None if outcome.run is None else outcome.run.meta.get("step")
+    return {**outcome.asked, **({} if step is None else {"step": readable(step, "s")})}

@@ -51,11 +51,7 @@ def turning_table(comparison: Comparison) -> TurningTable | None:
     on.
     """
     runs = [each.run for each in comparison.configurations]
-    if not runs or not all(drives(run) for run in runs):
-        return None
-    if is_a(runs[0], "braking", "acceleration") and not is_a(runs[0], "turn"):
-        return None
-    if max(float(np.abs(run["lateral_acceleration"]).max()) for run in runs) < _TURNS:
+    if not all(drives(run) for run in runs) or not any(_turns(run) for run in runs):
         return None
     rows = []
     for name, words in ROWS.items():
@@ -64,6 +60,12 @@ def turning_table(comparison: Comparison) -> TurningTable | None:
             rows.append((words, *(quantity_text(each.value, each.unit) for each in found)))
     rows.append((LIFTING, *(lifting(run) for run in runs)))
     return TurningTable(tuple(each.name for each in comparison.configurations), tuple(rows))
+
+
+def _turns(run: Run) -> bool:
+    """Whether a car turns hard, without braking or accelerating straight on."""
+    straight = is_a(run, "braking", "acceleration") and not is_a(run, "turn")
+    return not straight and float(np.abs(run["lateral_acceleration"]).max()) >= _TURNS
 
 
 def lifting(run: Run) -> str:

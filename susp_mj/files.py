@@ -37,6 +37,11 @@ def whole(path: str | Path) -> Iterator[Path]:
                 unfinished.unlink()
 
 
+def file_name(label: str) -> str:
+    """A label as a file name: letters, digits, dot, dash and underscore stay."""
+    return "".join(letter if letter.isalnum() or letter in "._-" else "_" for letter in label)
+
+
 def write_text(path: str | Path, text: str) -> Path:
     """Write a UTF-8 text file, complete or not at all.
 

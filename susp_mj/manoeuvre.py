@@ -12,7 +12,7 @@ import numpy as np
 from .character import Character
 from .description import Description
 from .errors import InputError
-from .units import PositiveTime
+from .units import PositiveTime, readable, unit_of_field
 
 if TYPE_CHECKING:
     from .elements.driver import Driver
@@ -111,6 +111,16 @@ class Manoeuvre(Description, ABC):
         """Speed [m/s] at which a car that drives freely begins: the manoeuvre's `speed`, or standing still."""
         return float(getattr(self, "speed", 0.0))
 
+    def readable(self) -> dict[str, str]:
+        """Its parameters, those left to their defaults too, as a case file would have them: each with its unit.
+        What is not given at all is left out."""
+        texts = {
+            name: readable(value, unit_of_field(field)) if isinstance(value, float) else _text(value)
+            for name, field in type(self).model_fields.items()
+            if name != "kind" and (value := getattr(self, name)) is not None
+        }
+        return {name: text for name, text in texts.items() if text}
+
     def record(self, time: np.ndarray) -> dict[str, np.ndarray]:
         """Signals of the manoeuvre itself to keep with the run, by quantity; by default none."""
         return {}
@@ -135,3 +145,12 @@ class Manoeuvre(Description, ABC):
                 raise InputError(
                     f"model {model} has no input '{quantity}', which manoeuvre {self.kind} drives", key="model"
                 )
+
+
+def _text(value: object) -> str:
+    """A value without unit as a reader wants it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict):
+        return ", ".join(f"{key} {each}" for key, each in value.items())
+    return ", ".join(map(str, value)) if isinstance(value, tuple) else str(value)

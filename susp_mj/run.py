@@ -127,8 +127,8 @@ class Run:
                     if name != "time"
                 }
                 return cls(time, channels, json.loads(file.meta))
-        except (OSError, AttributeError, IndexError, ValueError) as error:
-            raise InputError(f"is not a run of susp_mj: {error}", source=str(path)) from None
+        except (OSError, RuntimeError, AttributeError, IndexError, ValueError) as error:
+            raise InputError(f"is not a run of susp_mj, or damaged: {error}", source=str(path)) from None
 
     def to_xarray(self) -> xarray.Dataset:
         """The run as an xarray Dataset; needs the package xarray."""

@@ -8,9 +8,10 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 from pydantic import GetCoreSchemaHandler
+from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError, core_schema
 
 # unit -> (factor to SI, exponents of metre, kilogram, second, radian)
@@ -123,6 +124,20 @@ def to_si(value: Any, unit: str) -> float:
     return number
 
 
+_READABLE = {"m": ("mm",), "rad": ("deg",), "m/s": ("km/h",), "rad/s": ("deg/s",), "s": ("ms",)}
+"""SI unit -> units in which its values may be written shorter."""
+
+
+def readable(value: float, unit: str) -> str:
+    """A value in SI `unit` as a case file would have it, in the unit in which it is short; `to_si` reads it back.
+
+    >>> readable(0.06, "m"), readable(2.0, "m"), readable(50 / 3.6, "m/s"), readable(math.radians(85), "rad")
+    ('60 mm', '2 m', '50 km/h', '85 deg')
+    """
+    texts = [f"{value / unit_factor(each)[0]:.10g} {each}".strip() for each in (unit, *_READABLE.get(unit, ()))]
+    return min(texts, key=len)
+
+
 @dataclass(frozen=True)
 class Quantity:
     """Pydantic annotation of a float held in SI `unit`, with optional bounds: ``Annotated[float, Quantity("m",
@@ -149,6 +164,12 @@ class Quantity:
 def unit_of(metadata: Any) -> str:
     """SI unit symbol in a pydantic field's metadata, or an empty text."""
     return next((item.unit for item in metadata if isinstance(item, Quantity)), "")
+
+
+def unit_of_field(field: FieldInfo) -> str:
+    """SI unit symbol of a field, which may be optional; an empty text if it has none."""
+    inside = (item for part in get_args(field.annotation) for item in getattr(part, "__metadata__", ()))
+    return unit_of((*field.metadata, *inside))
 
 
 Angle = Annotated[float, Quantity("rad")]

@@ -13,11 +13,10 @@ import tomlkit
 from evaluation.display import quantity_text
 from evaluation.story import Finding
 from susp_mj.errors import SuspMjError
-from susp_mj.files import write_text
+from susp_mj.files import file_name, write_text
 from susp_mj.names import AXLES
 from vehicles.reading import VehicleFile, override
 
-from ..case import file_name
 from .candidate import Candidate, Layout
 from .characteristics import ONE_MASS
 from .checks import axles_of

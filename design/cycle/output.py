@@ -10,9 +10,8 @@ from typing import Any
 
 from evaluation.story import Story
 from susp_mj.errors import InputError
-from susp_mj.files import write_text
+from susp_mj.files import file_name, write_text
 
-from ..case import file_name
 from ..results import staged
 from .candidate import Layout
 from .car_file import write_car, write_cases

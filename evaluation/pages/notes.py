@@ -116,12 +116,7 @@ def settings(comparison: Comparison) -> Iterator[tuple[str, str]]:
 
 
 def _run_settings(meta: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    manoeuvre = dict(meta.get("manoeuvre", {}))
-    kind = manoeuvre.pop("kind", "")
-    yield (
-        "manoeuvre",
-        f"{kind}, SI units: " + ", ".join(f"{key} {_plain_text(value)}" for key, value in manoeuvre.items()),
-    )
+    yield "manoeuvre", _manoeuvre(meta)
     if meta.get("notes"):
         yield "beyond it", "; ".join(meta["notes"])
     if meta.get("facts"):
@@ -131,6 +126,20 @@ def _run_settings(meta: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "integration", f"{meta.get('integrator', '')}, step {1e3 * meta['step']:g} ms".lstrip(", ")
     if meta.get("versions"):
         yield "versions", ", ".join(f"{package} {version}" for package, version in meta["versions"].items())
+
+
+def _manoeuvre(meta: Mapping[str, Any]) -> str:
+    """Kind and parameters of the manoeuvre, each with its unit where the case was kept."""
+    parameters = dict(meta.get("manoeuvre", {}))
+    kind, asked = parameters.pop("kind", ""), meta.get("asked", {}).get("parameters")
+    if asked is not None:
+        return ", ".join([kind, *(f"{key} {text}" for key, text in asked.items())])
+    return f"{kind}, SI units: " + ", ".join(f"{key} {_plain_text(value)}" for key, value in parameters.items())
+
+
+def overrides(asked: Mapping[str, Any]) -> str:
+    """What a configuration sets otherwise than its car's file, on one line."""
+    return ", ".join(f"{key} = {value}" for key, value in asked.get("set", {}).items())
 
 
 def _plain_text(value: Any) -> str:

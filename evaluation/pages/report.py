@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Any
 from susp_mj.files import write_text
 
 from ..display import band_text, number_text, quantity_text, shown
-from ..numbers import NUMBERS
 from ..plots.drawing import draw
 from ..turning import turning_table
-from .notes import GLOSSARY, elements_used, settings, station_words
+from .notes import GLOSSARY, elements_used, overrides, settings, station_words
 from .page import figure_of, page_colours, templates, video_of
 
 if TYPE_CHECKING:
@@ -59,13 +58,25 @@ def write_report(
             colours=page_colours(),
             verdict=list(_verdict(comparison)),
             configurations=[
-                {"name": each.name, "title": each.title, **each.facts} for each in comparison.configurations
+                {"name": each.name, "title": each.title, "set": overrides(each.asked), **each.facts}
+                for each in comparison.configurations
             ],
-            failures=comparison.failures,
+            failures=[
+                {
+                    "name": each.name,
+                    "title": each.title,
+                    "set": overrides(each.asked),
+                    "reason": each.reason,
+                    **each.facts,
+                }
+                for each in comparison.failures
+            ],
             claims=comparison.claims,
             criteria=_criteria_rows(comparison),
             turning=turning_table(comparison),
             numbers=_number_rows(comparison, footnotes),
+            baseline=comparison.baseline,
+            differences=_difference_rows(comparison),
             modes=_mode_rows(comparison),
             footnotes=[(mark, note) for note, mark in footnotes.items()],
             videos=[video_of(each, path.parent) for each in films],
@@ -127,9 +138,9 @@ def _count(number: int, one: str, many: str = "") -> str:
     return f"{number} {one if number == 1 else many or one + 's'}"
 
 
-def _label(name: str) -> str:
+def _label(comparison: Comparison, name: str) -> str:
     """What a number means: the first sentence of its description, without unit and formula."""
-    first = re.split(r": ``|(?<=\S)\. |\.$|;", NUMBERS[name].description if name in NUMBERS else "", maxsplit=1)[0]
+    first = re.split(r": ``|(?<=\S)\. |\.$|;", comparison.description_of(name), maxsplit=1)[0]
     text = re.sub(r"\s*\[[^\]]*\]", "", first).replace("`", "")
     return text.strip().rstrip(".") or name.replace("_", " ")
 
@@ -147,7 +158,22 @@ def _number_rows(comparison: Comparison, footnotes: dict[str, str]) -> list[dict
             note = "not evaluated" if number is None else number.note
             mark = footnotes.setdefault(note, _mark(len(footnotes))) if missing and note else ""
             cells.append(_Cell(number_text(number.value if number else None, unit), note, mark))
-        rows.append({"name": name, "label": _label(name), "unit": shown(unit).unit or "–", "cells": cells})
+        rows.append({"name": name, "label": _label(comparison, name), "unit": shown(unit).unit or "–", "cells": cells})
+    return rows
+
+
+def _difference_rows(comparison: Comparison) -> list[dict[str, Any]]:
+    """Rows of the differences to the baseline, under its own column its value; none without a baseline."""
+    found = {each.name: comparison.differences(each) for each in comparison.configurations}
+    rows = []
+    for name in comparison.differing():
+        cells = [
+            _Cell(quantity_text(each.numbers[name].value, each.numbers[name].unit))
+            if each.name == comparison.baseline
+            else _Cell(found[each.name][name].text if name in found[each.name] else "–")
+            for each in comparison.configurations
+        ]
+        rows.append({"name": name, "label": _label(comparison, name), "cells": cells})
     return rows
 
 
@@ -164,7 +190,7 @@ def _criteria_rows(comparison: Comparison) -> list[dict[str, Any]]:
         found = [each[name] for each in verdicts]
         cells = [_Cell(quantity_text(each.number.value, each.number.unit), passed=each.passed) for each in found]
         band = found[0].band if found else band_text(criterion.minimum, criterion.maximum, "")
-        rows.append({"name": name, "label": _label(name), "band": band, "cells": cells})
+        rows.append({"name": name, "label": _label(comparison, name), "band": band, "cells": cells})
     return rows
 
 

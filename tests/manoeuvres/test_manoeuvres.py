@@ -224,3 +224,11 @@ def test_sweep_must_rise():
     with pytest.raises(InputError, match="must lie above") as caught:
         validate(VerticalSweep, {"start_frequency": 5, "end_frequency": 5})
     assert caught.value.key == "end_frequency"
+
+
+@pytest.mark.parametrize("kind", MANOEUVRES)
+def test_what_is_readable_is_the_same_manoeuvre(kind):
+    manoeuvre = MANOEUVRES[kind]()
+    again = type(manoeuvre)(**manoeuvre.readable())
+    for name, value in manoeuvre.model_dump().items():
+        assert getattr(again, name) == (pytest.approx(value, rel=1e-9) if isinstance(value, float) else value)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from susp_mj.units import to_si, unit_factor
+from susp_mj.units import readable, to_si, unit_factor
 
 # text, SI unit, value in SI worked out by hand
 READ = [
@@ -133,3 +133,16 @@ def test_units_of_the_same_dimension(one, other):
 @pytest.mark.parametrize(("one", "other"), [("rad", ""), ("Hz", "rad/s"), ("N", "Nm"), ("Ns/m", "N/m"), ("kg", "N")])
 def test_units_of_different_dimensions(one, other):
     assert unit_factor(one)[1] != unit_factor(other)[1]
+
+
+@given(st.floats(-1e6, 1e6), st.sampled_from(["m", "rad", "m/s", "rad/s", "s", "N", "N s/m", "m/s²", ""]))
+def test_what_is_readable_is_read_back(value, unit):
+    assert to_si(readable(value, unit), unit) == pytest.approx(value, rel=1e-9, abs=1e-300)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [(0.08, "m", "80 mm"), (2.0, "m", "2 m"), (20.0, "m/s", "20 m/s"), (80 / 3.6, "m/s", "80 km/h"), (0.3, "", "0.3")],
+)
+def test_readable_is_short(value, unit, text):
+    assert readable(value, unit) == text
