@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from evaluation.compare import Claim
 from evaluation.numbers import facts
 from evaluation.reproduction import Beside, Part
-from manoeuvres import Bump
+from manoeuvres import Bump, RecordedMotion
 from susp_mj import simulate
 from susp_mj.batch import side_by_side
 from susp_mj.elements import GRAVITY
@@ -21,7 +23,6 @@ from vehicles.mjcf import build
 from vehicles.reading import load_vehicle
 
 from ..running import Report
-from .recorded import RecordedWheels
 from .runs import CAR
 from .stated import stated
 
@@ -82,17 +83,25 @@ def validation(progress: Report, workers: int | None = None) -> Part:
     return Part("Chapter 6: oscillation models against the handling car", claims, (_table(peaks),))
 
 
+def _recorded(driven: Run) -> RecordedMotion:
+    """The wheel centres of a run, for models without tyres."""
+    with TemporaryDirectory() as folder:
+        file = driven.save(Path(folder) / "driven.nc")
+        return RecordedMotion(file=str(file), method="cubic", duration=float(driven.time[-1]))
+
+
 def _at(height: float, progress: Report, workers: int | None) -> list[Peaks]:
     """Peaks of every model over a bump of one height [m]."""
     car = load_vehicle(CAR, CONFIGURATION)
     bump = Bump(height=height, length=LENGTH, speed=SPEED, start=START, duration=DURATION)
     driven = simulate(build(car, "handling", LOAD), bump)
+    recorded = _recorded(driven)
     later = bump.model_copy(update={"start": START + facts(driven)["wheelbase"] / SPEED})
     places = [(model, axle) for model in MODELS for axle in (AXLES if model in ONE_AXLE else (None,))]
 
     def road(model: str, axle: str | None) -> Manoeuvre:
         if model in WITHOUT_TYRE:
-            return RecordedWheels.of(driven, axle if model in ONE_AXLE else None)
+            return recorded
         return later if axle == "rear" else bump
 
     runs = side_by_side(

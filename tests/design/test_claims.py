@@ -10,17 +10,12 @@ import pytest
 
 from design import cli
 from design.claims import reproducing, zuziehen
-from design.claims.recorded import RecordedWheels
 from design.claims.runs import Answered
 from design.claims.stated import Stated, stated
 from evaluation.compare import Claim
 from evaluation.numbers import NUMBERS, Number
 from evaluation.pages.reproduction import write_reproduction, write_reproduction_json
 from evaluation.reproduction import Beside, Part, Reproduction
-from manoeuvres import Bump
-from susp_mj import simulate
-from vehicles import load_vehicle
-from vehicles.mjcf import build
 
 
 @pytest.fixture(scope="module")
@@ -113,18 +108,6 @@ def test_a_claim_of_one_number_agrees_in_its_band():
     assert claim.failed("it fell over").verdict == "does not agree"
     known = claim.model_copy(update={"disagrees": "because"})
     assert known.failed("it fell over").verdict == "does not agree, as is known" and known.failed("").why == "because"
-
-
-def test_a_model_without_tyres_follows_the_recorded_wheels():
-    car = load_vehicle("s_class", "configuration_4")
-    bump = Bump(height=0.03, length=15.0, speed=20.0, duration=2.0)
-    driven = simulate(build(car, "full_7dof"), bump)
-    followed = simulate(build(car, "full_3dof"), RecordedWheels.of(driven))
-    for wheel in ("fl", "rr"):
-        height = driven[f"{wheel}_wheel_displacement"]
-        np.testing.assert_allclose(followed[f"{wheel}_road_height"], height - height[0], atol=1e-6)
-    one = simulate(build(car, "quarter_1dof", "ko", "rear"), RecordedWheels.of(driven, "rear"))
-    np.testing.assert_allclose(one["road_height"], followed["rl_road_height"], atol=1e-9)
 
 
 # ---- what is left behind
