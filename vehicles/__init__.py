@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .reading import VehicleFile, available_vehicles, load_vehicle
+from .reading import VehicleFile, available_vehicles, load_vehicle, with_overrides
 from .vehicle import Axle, LoadCase, Vehicle
 
-__all__ = ["Axle", "LoadCase", "Vehicle", "VehicleFile", "available_vehicles", "load_vehicle"]
+__all__ = ["Axle", "LoadCase", "Vehicle", "VehicleFile", "available_vehicles", "load_vehicle", "with_overrides"]

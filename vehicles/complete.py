@@ -23,6 +23,8 @@ from .vehicle import DESIGN_LOAD, Axle, Body, Vehicle
 HANDLING_AXLE = ("track", "unsprung_mass", "wheel_inertia", "kinematics", "compliance", "handling_tyre")
 HANDLING_CAR = ("steering", "powertrain", "brakes", "aerodynamics")
 """What model `handling` needs of each axle and of the car, beyond what the oscillation models need."""
+RADIUS_AGREES, ROLL_CENTRE_AGREES = 0.1, 0.05
+"""How far wheel radius [share] and roll centre [m] as told may be from what tyre and kinematics say."""
 _SOFTEST = 0.5  # largest static deflection of a tyre, as a share of its radius
 
 
@@ -118,6 +120,7 @@ class CompleteAxle(LoadedAxle):
         loaded = vars(LoadedAxle.of(vehicle, name, load))
         axle = cls(**loaded, **{key: getattr(loaded["values"], key) for key in HANDLING_AXLE if key not in loaded})
         axle._check_tyre()
+        axle._check_agreement(vehicle.wheel_radius)
         return axle
 
     @property
@@ -137,6 +140,24 @@ class CompleteAxle(LoadedAxle):
                 f"{tyre.vertical_stiffness:g} N/m is not allowed; {self.static_load:.0f} N would press the tyre in by "
                 f"{1000 * self.tyre_deflection:.0f} mm, more than half its radius of {1000 * tyre.radius:.0f} mm",
                 key=f"{self.name}.handling_tyre.vertical_stiffness",
+                source=self.source,
+            )
+
+    def _check_agreement(self, wheel_radius: float | None) -> None:
+        """Refuse an axle whose oscillation models are of another car: they read wheel radius and roll centre as told,
+        this model takes them from tyre and kinematics."""
+        if wheel_radius is not None and abs(wheel_radius / self.hub_height - 1.0) > RADIUS_AGREES:
+            raise InputError(
+                f"{wheel_radius:g} m is not allowed; on its tyre the {self.name} wheel's centre is "
+                f"{self.hub_height:.3f} m above the ground",
+                key="wheel_radius",
+                source=self.source,
+            )
+        told, found = self.values.roll_centre_height, self.kinematics.roll_centre_height(self.track)
+        if told is not None and abs(told - found) > ROLL_CENTRE_AGREES:
+            raise InputError(
+                f"{told:g} m is not allowed; the kinematics put the roll centre at {found:.3f} m",
+                key=f"{self.name}.roll_centre_height",
                 source=self.source,
             )
 

@@ -121,6 +121,19 @@ def load_vehicle(
     return VehicleFile.open(name).vehicle(characteristics, overrides)
 
 
+def with_overrides(vehicle: Vehicle, overrides: Mapping[str, Any]) -> Vehicle:
+    """The same car with some values changed, dotted path -> value as a file would have it.
+
+    Raises:
+        InputError: as `load_vehicle`.
+    """
+    tables = vehicle.model_dump(exclude_none=True, serialize_as_any=True)
+    source = vehicle.source.removesuffix(WITH_OVERRIDES) + WITH_OVERRIDES
+    for key, value in overrides.items():
+        override(tables, key, value, source)
+    return validate(Vehicle, {**tables, "source": source}, source=source)
+
+
 def read_toml(path: Path) -> dict[str, Any]:
     """Parse a TOML file.
 

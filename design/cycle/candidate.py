@@ -142,9 +142,10 @@ class Layout:
         return self._car(candidate.characteristics, self.set(candidate))
 
     def hash_of(self, car: Vehicle) -> str:
-        """Hash of all that a car is."""
+        """Hash of all that a car is, its elements with the values of their own kinds."""
         if id(car) not in self._hashes:
-            self._hashes[id(car)] = car, hashlib.sha256(car.model_dump_json(warnings=False).encode()).hexdigest()
+            plain = car.model_dump_json(serialize_as_any=True)
+            self._hashes[id(car)] = car, hashlib.sha256(plain.encode()).hexdigest()
         return self._hashes[id(car)][1]
 
     @cached_property

@@ -82,7 +82,9 @@ class Tried:
 def possible(layout: Layout, candidate: Candidate) -> Finding | None:
     """That the turned knobs make a spring at all; None if they do."""
     try:
-        layout.vehicle(candidate)
+        car = layout.vehicle(candidate)
+        for name in AXLES:
+            car.axle(name)
     except InputError as error:
         key = error.key.split(".")[0]
         return Finding(

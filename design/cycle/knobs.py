@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from susp_mj.elements import GRAVITY, ProgressiveSpring, ZonedDamper
-from susp_mj.errors import InputError
 from susp_mj.names import AXLES
 from susp_mj.units import to_si
 from vehicles.vehicle import Axle, Vehicle
@@ -114,12 +113,6 @@ def first_limit(axle: Axle) -> float:
     return damper.limits[0] if isinstance(damper, ZonedDamper) and damper.limits else FIRST_LIMIT
 
 
-def least_rebound_force(vehicle: Vehicle, axle: str, rebound_rate: float) -> float:
-    """Force [N] at the rebound stop of a spring that is straight in rebound, ``F_0 - k |x_min|``."""
-    spring = vehicle.axle(axle).spring
-    return float(spring.force_at(0.0)) + rebound_rate * spring.stops.rebound
-
-
 def overrides(vehicle: Vehicle, values: Values, changed: set[str], above: tuple[float, float]) -> dict[str, Any]:
     """What to set in a vehicle file so that the changed knobs stand at their values; the rest stays the car's own.
 
@@ -131,9 +124,6 @@ def overrides(vehicle: Vehicle, values: Values, changed: set[str], above: tuple[
         values: of all knobs.
         changed: names of those that are to be written.
         above: share of the first damper rate that holds beyond the first limit, and its least value [N s/m].
-
-    Raises:
-        InputError: a rebound rate that leaves no force at the rebound stop.
     """
     result: dict[str, Any] = {}
     for name in AXLES:
@@ -149,19 +139,15 @@ def overrides(vehicle: Vehicle, values: Values, changed: set[str], above: tuple[
 
 
 def _spring(vehicle: Vehicle, axle: Axle, name: str, values: Values) -> dict[str, Any]:
-    force = least_rebound_force(vehicle, name, float(values[f"{name}.rebound_rate"]))
-    if force < 0:
-        raise InputError(f"would pull with {-force:.0f} N at the rebound stop", key=f"{name}.rebound_rate")
-    spring = getattr(
-        vehicle, name
-    ).spring  # as the file has it: without a preload of its own it carries the design load
+    spring = getattr(vehicle, name).spring  # as the file has it: without a preload of its own
     own = spring.model_dump(exclude_none=True) if isinstance(spring, ProgressiveSpring) else {}
+    own.pop("rebound_force", None)
     return {
         **own,
         "kind": "progressive",
         "stops": axle.spring.stops.model_dump(exclude_none=True),
         "frequency": float(values[f"{name}.frequency"]),
-        "rebound_force": force,
+        "rebound_rate": float(values[f"{name}.rebound_rate"]),
     }
 
 

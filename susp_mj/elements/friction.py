@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import ClassVar
 
-from ..units import PositiveForce
+from ..units import NonNegativeForce
 from .element import ForceElement
 from .law import Law, Parameters
 
@@ -21,12 +21,12 @@ class LinkageFriction(ForceElement):
     201.7 s/m makes it 90 % of F_max at 0.0314 m/s, the peak speed of 0.01 m at 0.5 Hz.
 
     Attributes:
-        force: F_max [N].
+        force: F_max [N]; 0 is none.
     """
 
     law: ClassVar[Law] = Law("linkage_friction", linkage_friction_force)
 
-    force: PositiveForce
+    force: NonNegativeForce
 
     def parameters(self) -> tuple[float, ...]:
         return (self.force,)

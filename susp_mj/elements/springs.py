@@ -180,7 +180,8 @@ class ProgressiveSpring(Spring):
 
     Attributes:
         frequency: natural frequency [Hz] of the constant-frequency part.
-        rebound_force: F_min [N] at the rebound stop, at least 0 and below the preload.
+        rebound_force: F_min [N] at the rebound stop, at least 0 and below the preload (exactly one of force and rate).
+        rebound_rate: rate of the straight part [N/m], ``(F0 - F_min)/-x_min``.
         compression_force: F_max [N] at the compression stop, not below the constant-frequency curve there; or None.
         progressive_from: x_p [m], where the progression starts.
         exponent: exponential factor f, at least 1 (a rate without a jump needs more than 1).
@@ -190,13 +191,16 @@ class ProgressiveSpring(Spring):
 
     kind: Literal["progressive"] = "progressive"
     frequency: NaturalFrequency
-    rebound_force: NonNegativeForce
+    rebound_force: NonNegativeForce | None = None
+    rebound_rate: Stiffness | None = None
     compression_force: PositiveForce | None = None
     progressive_from: Annotated[float, Quantity("m", ge=0)] = 0.0
     exponent: Annotated[float, Quantity("", ge=1)] = 2.0
 
     @model_validator(mode="after")
     def _monotone(self) -> ProgressiveSpring:
+        if (self.rebound_force is None) == (self.rebound_rate is None):
+            raise wrong("give exactly one of 'rebound_force' and 'rebound_rate'")
         if self.progressive_from >= self.stops.compression:
             raise wrong(
                 f"{self.progressive_from} m is not allowed; it must lie below the compression stop at "
@@ -204,7 +208,13 @@ class ProgressiveSpring(Spring):
                 "progressive_from",
             )
         if self.preload is not None:
-            if self.rebound_force >= self.preload:
+            if self.rebound_rate is not None and self.rebound_rate > self.preload / -self.stops.rebound:
+                raise wrong(
+                    f"{self.rebound_rate} N/m is not allowed; the spring would pull at the rebound stop, at most "
+                    f"{self.preload / -self.stops.rebound:.0f} N/m",
+                    "rebound_rate",
+                )
+            if self.rebound_force is not None and self.rebound_force >= self.preload:
                 raise wrong(
                     f"{self.rebound_force} N is not allowed; it must be below the preload of {self.preload:.0f} N",
                     "rebound_force",
@@ -226,7 +236,7 @@ class ProgressiveSpring(Spring):
             stops.compression,
             preload,
             growth,
-            (preload - self.rebound_force) / -stops.rebound,
+            self.rebound_rate or (preload - (self.rebound_force or 0.0)) / -stops.rebound,
             self.progressive_from,
             0.0
             if self.compression_force is None

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 import vehicles
-from susp_mj import InputError
+from manoeuvres import Bump
+from susp_mj import InputError, simulate
 from susp_mj.elements import GRAVITY
-from vehicles import available_vehicles, load_vehicle
+from vehicles import available_vehicles, load_vehicle, with_overrides
 from vehicles.complete import CompleteCar, handling_needs
 from vehicles.mjcf import MODELS, build
 
@@ -418,3 +419,56 @@ def test_a_progressive_spring_that_does_not_fit_the_design_load(vehicle_file):
         load_vehicle(vehicle_file).axle("rear")
     assert (caught.value.source, caught.value.key) == ("car.toml", "rear.spring.rebound_force")
     assert "3924 N" in str(caught.value)
+
+
+# ---- cars changed in Python, and springs told by their rebound rate
+
+
+@pytest.mark.parametrize("name", ["s_class", "bmw_320i"])
+def test_a_car_changed_in_python_is_the_one_with_overrides(name):
+    changes = {"rear.spring.preload": 4500.0, "front.friction": None, "rear.damper.friction": "40 N"}
+    changed, loaded = with_overrides(load_vehicle(name), changes), load_vehicle(name, None, changes)
+    assert changed == loaded
+    assert with_overrides(changed, {"rear.damper.friction": 1.0}).source == loaded.source
+    with pytest.raises(InputError, match="wrong unit") as caught:
+        with_overrides(load_vehicle(name), {"rear.damper.friction": "40 m"})
+    assert caught.value.key == "rear.damper.friction"
+
+
+def test_linkage_friction_of_zero_is_none():
+    runs = [
+        simulate(build(load_vehicle("chapter3", "linear", {"rear.friction": each}), "quarter_2dof"), Bump(duration=0.8))
+        for each in (None, {"force": 0})
+    ]
+    np.testing.assert_array_equal(runs[0]["body_acceleration"], runs[1]["body_acceleration"])
+
+
+def test_a_progressive_spring_told_by_its_rebound_rate():
+    car = load_vehicle("s_class", "configuration_3")
+    spring = car.axle("rear").spring
+    force = float(spring.force_at(-0.1))
+    rate = (float(spring.force_at(0.0)) - force) / 0.1
+    told = {"rear.spring.rebound_force": None, "rear.spring.rebound_rate": rate}
+    other = load_vehicle("s_class", "configuration_3", told).axle("rear").spring
+    x = np.linspace(-0.12, 0.12, 49)
+    np.testing.assert_allclose(other.force_at(x), spring.force_at(x), rtol=1e-12)
+    with pytest.raises(InputError, match="exactly one"):
+        load_vehicle("s_class", "configuration_3", {"rear.spring.rebound_rate": rate})
+    with pytest.raises(InputError, match="would pull at the rebound stop"):
+        load_vehicle("s_class", "configuration_3", {**told, "rear.spring.rebound_rate": 60e3}).axle("rear")
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("wheel_radius", 0.45, "the front wheel's centre is 0.317 m above the ground"),
+        ("rear.roll_centre_height", 0.3, "the kinematics put the roll centre at"),
+    ],
+)
+def test_one_car_has_one_radius_and_one_roll_centre(key, value, words):
+    """Oscillation models read them as told, model handling from tyre and kinematics."""
+    car = load_vehicle("s_class", None, {key: value})
+    build(car, "full_7dof")
+    with pytest.raises(InputError, match=words) as caught:
+        build(car, "handling")
+    assert caught.value.key == key

@@ -108,7 +108,7 @@ def note_stiffness(builder: ModelBuilder, loaded: LoadedAxle, mass: float, *, ty
     springs."""
     axle, where = loaded.values, loaded.name
     arctan_slope = 2 / math.pi * 201.7
-    if axle.friction is not None:
+    if axle.friction is not None and axle.friction.force > 0:
         force = axle.friction.force
         builder.resolve(f"{where}.friction.force", force, "N", mass / (arctan_slope * force))
     damper = axle.damper

@@ -235,4 +235,4 @@ repair = false
 def test_a_spring_that_is_none_is_a_finding(bench):
     table = bench(TARGETS + "[[candidate]]\nchange = { 'rear.rebound_rate' = '60 N/mm' }\n")
     outcome = assess(table.layout, table.layout.by_hand(0, "A", {}), table.ledger.ask)
-    assert not outcome.kept and "would pull with" in outcome.findings[0].words
+    assert not outcome.kept and "would pull at the rebound stop" in outcome.findings[0].words

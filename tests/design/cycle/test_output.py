@@ -140,6 +140,17 @@ def test_stopped_at_any_moment_and_resumed_it_says_the_same(folder):
     assert (out / "verdict.json").read_bytes() == (folder / "out" / "verdict.json").read_bytes()
 
 
+def test_every_knob_makes_another_car(bench):
+    """A run is looked up by all that its car is; no two cars may be taken for one."""
+    layout = bench().layout
+    first = layout.proposed("A")
+    cars = [layout.vehicle(first)]
+    for knob, value in layout.values(first).items():
+        new = "1:1.7" if isinstance(value, str) else 1.001 * value + 1e-3
+        cars.append(layout.vehicle(first.turn("B", "", {knob: new})))
+    assert len({layout.hash_of(car) for car in cars}) == len(cars) == 11
+
+
 def test_a_line_that_was_cut_off_is_left_out(bench):
     table = bench()
     outcomes = cycle(table.layout, table.ledger.ask)
