@@ -14,9 +14,9 @@ from .errors import InputError, choices
 from .names import channel_name
 from .plant import Plant
 
-_STEP = 1e-7
-"""Difference in position [m, rad] and velocity [m/s, rad/s]; forces are smooth at rest, so this is far from any
-kink."""
+_STEP = 1e-5
+"""Difference in position [m, rad] and velocity [m/s, rad/s]. Around a kink, as springs have it in the design position,
+it reaches to both sides, whichever side the last digit of the equilibrium lies on: the slope is their mean."""
 
 
 @dataclass(frozen=True)

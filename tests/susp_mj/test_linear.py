@@ -79,3 +79,12 @@ def test_unknown_channel_lists_the_known():
     linear = linearise(build(load_vehicle("chapter3", "linear").without_friction(), "quarter_2dof"))
     with pytest.raises(InputError, match="did you mean 'wheel_load'"):
         linear.transfer("wheel_loads", {}, np.array([1.0]))
+
+
+@pytest.mark.parametrize("characteristics", ["configuration_1", "configuration_2", "configuration_4"])
+def test_modes_at_a_kink_are_the_mean_of_its_sides(characteristics):
+    """The front axle carries the same at loads ko and full but for the last digits: so are its modes."""
+    car = load_vehicle("s_class", characteristics).without_friction()
+    ko, full = (linearise(build(car, "quarter_1dof", load, "front")).modes()[0] for load in ("ko", "full"))
+    assert full.frequency == pytest.approx(ko.frequency, rel=0.01)
+    assert full.damping == pytest.approx(ko.damping, rel=0.01)

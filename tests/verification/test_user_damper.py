@@ -119,7 +119,7 @@ def test_its_mode_is_that_of_the_law_at_rest():
     linear = [build(car(each, **{"rear.friction": None}), "quarter_2dof") for each in (plain, QUADRATIC)]
     expected, found = (linearise(plant).modes() for plant in linear)
     for a, b in zip(expected, found, strict=True):
-        assert (b.frequency, b.damping) == pytest.approx((a.frequency, a.damping), rel=1e-5)
+        assert (b.frequency, b.damping) == pytest.approx((a.frequency, a.damping), rel=1e-4)
 
 
 @pytest.mark.parametrize("damper", [QUADRATIC, MAXWELL])
