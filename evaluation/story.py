@@ -157,10 +157,10 @@ class Story:
         trade_offs: of the kept candidate.
         curves: attempt -> characteristics of its axles.
         static: load -> axle -> static force on one wheel's spring [N].
-        components: what is asked of springs and dampers themselves: title -> rows of label and text.
         runs: of the kept and the last discarded candidate: check -> load -> attempt -> Run.
         notes: what was assumed: defaults and estimates, one sentence each.
         made: versions and what was run, for the foot of a page.
+        components: what is asked of springs and dampers themselves: title -> rows of label and text.
     """
 
     title: str
@@ -171,10 +171,10 @@ class Story:
     trade_offs: Sequence[TradeOff] = ()
     curves: Mapping[str, Sequence[Characteristic]] = field(default_factory=dict)
     static: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    components: Mapping[str, Sequence[tuple[str, str]]] = field(default_factory=dict)
     runs: Mapping[str, Mapping[str, Mapping[str, Any]]] = field(default_factory=dict)
     notes: Sequence[str] = ()
     made: Mapping[str, str] = field(default_factory=dict)
+    components: Mapping[str, Sequence[tuple[str, str]]] = field(default_factory=dict)
 
     @property
     def kept(self) -> Attempt | None:

@@ -23,6 +23,11 @@ _FILES: set[str] = set()
 """Files of the plugins of this process, as their code names them."""
 
 
+def plugin_files() -> list[Path]:
+    """Files of the plugins that this process has run."""
+    return [Path(each) for each in sorted(_FILES)]
+
+
 def load_plugins(names: Any, path: Path) -> None:
     """Run the plugins that a file names, after the installed ones.
 

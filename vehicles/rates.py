@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from susp_mj.elements import GRAVITY, Spring
@@ -16,21 +16,29 @@ from .vehicle import DESIGN_LOAD, Vehicle
 
 def static_deflection(spring: Spring, force: float) -> float:
     """Deflection [m] at which a spring and its stops carry `force` [N] at rest."""
+    return _root(lambda x: carried(spring, x) - force, spring)
+
+
+def carried(spring: Spring, deflection: float) -> float:
+    """Force [N] of a spring and its stops."""
+    return float(spring.force_at(deflection) + spring.stops.evaluate(deflection))
+
+
+def _root(excess: Callable[[float], float], spring: Spring) -> float:
+    """Where a force that rises with the deflection vanishes: between the stops, or as far beyond as it takes."""
     from scipy.optimize import brentq
 
     reach = spring.stops.compression - spring.stops.rebound
-
-    def excess(x: float) -> float:
-        return float(spring.force_at(x) + spring.stops.evaluate(x)) - force
-
     low, high = spring.stops.rebound - reach, spring.stops.compression + reach
+    while excess(low) > 0 or excess(high) < 0:
+        low, high = 2 * low, 2 * high
     return float(brentq(excess, low, high, xtol=1e-12))  # pyright: ignore[reportArgumentType]
 
 
 def rate_around(spring: Spring, deflection: float, reach: float = 1e-3) -> float:
-    """Mean rate [N/m] of a spring over `reach` [m] to both sides of a deflection: at a kink the mean of its sides."""
-    low, high = deflection - reach, deflection + reach
-    return float(spring.force_at(high) - spring.force_at(low)) / (high - low)
+    """Mean rate [N/m] of a spring and its stops over `reach` [m] to both sides of a deflection: at a kink the mean of
+    its sides."""
+    return (carried(spring, deflection + reach) - carried(spring, deflection - reach)) / (2 * reach)
 
 
 def damping_ratio(vehicle: Vehicle, axle: str, load: str, damping: float) -> float:
@@ -67,7 +75,7 @@ def roll_lever(vehicle: Vehicle, load: str = DESIGN_LOAD) -> float:
 
 
 def secant_rate(spring: Spring, load: float, travel: float) -> float:
-    """Secant rate [N/m] of one wheel's spring in pure roll, ``(F(u + s) - F(u - s)) / 2 s``.
+    """Secant rate [N/m] of one wheel's spring and stops in pure roll, ``(F(u + s) - F(u - s)) / 2 s``.
 
     Args:
         spring: of one wheel, with its preload.
@@ -75,14 +83,8 @@ def secant_rate(spring: Spring, load: float, travel: float) -> float:
             stiffer in compression lift the body.
         travel: s [m] of each wheel, half the track times the roll angle.
     """
-    from scipy.optimize import brentq
-
-    def excess(u: float) -> float:
-        return float(spring.force_at(u + travel) + spring.force_at(u - travel)) - 2 * load
-
-    reach = spring.stops.compression - spring.stops.rebound
-    u = float(brentq(excess, -reach, reach, xtol=1e-12))  # pyright: ignore[reportArgumentType]
-    return float(spring.force_at(u + travel) - spring.force_at(u - travel)) / (2 * travel)
+    u = _root(lambda u: carried(spring, u + travel) + carried(spring, u - travel) - 2 * load, spring)
+    return (carried(spring, u + travel) - carried(spring, u - travel)) / (2 * travel)
 
 
 @dataclass(frozen=True)

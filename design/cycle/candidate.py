@@ -18,7 +18,7 @@ from vehicles.vehicle import Vehicle
 
 from ..case import read_manoeuvre
 from .knobs import Values, knobs_of, overrides
-from .targets import Targets, read_knobs
+from .targets import Check, Targets, read_knobs
 
 
 @dataclass(frozen=True)
@@ -93,16 +93,24 @@ class Layout:
 
     def _check(self) -> None:
         """Refuse loads that the car does not have, and manoeuvres that are none."""
-        car = self.own(self.targets.characteristics)
-        for i, check in enumerate(self.targets.check):
+        car, targets = self.own(self.targets.characteristics), self.targets
+        driven = {f"check.{i}": check for i, check in enumerate(targets.check)}
+        driven |= {f"trade_off.response.{i}": each for i, each in enumerate(targets.trade_off.response)}
+        loads = {"loads": targets.loads, "roll.load": (targets.roll.load,) if targets.roll is not None else ()}
+        for key, each in driven.items():
             try:
-                read_manoeuvre(check.manoeuvre, self.path)
+                read_manoeuvre(each.manoeuvre, self.path)
             except InputError as error:
-                raise error.within(key=f"check.{i}") from None
-        asked = [("loads", self.targets.loads)]
-        asked += [(f"check.{i}.loads", each.loads or ()) for i, each in enumerate(self.targets.check)]
-        for key, loads in asked:
-            for load in loads:
+                raise error.within(key=key) from None
+            loads |= {f"{key}.loads": each.loads or ()} if isinstance(each, Check) else {f"{key}.load": (each.load,)}
+        for i, candidate in enumerate(targets.candidate):
+            if candidate.characteristics is not None:
+                try:
+                    self.own(candidate.characteristics)
+                except InputError as error:
+                    raise error.within(key="" if error.source else f"candidate.{i}") from None
+        for key, names in loads.items():
+            for load in names:
                 try:
                     car.load(load)
                 except InputError as error:
@@ -153,6 +161,11 @@ class Layout:
         """Knobs that no repair may turn."""
         return set(self.targets.hold)
 
+    @cached_property
+    def fixed(self) -> set[str]:
+        """Held knobs whose values are given; others stay as they come out."""
+        return set(read_knobs(self.targets.hold, "hold"))
+
     def proposed(self, name: str) -> Candidate:
         """The first candidate: laid out from the targets, or the car's own characteristics."""
         targets = self.targets
@@ -179,7 +192,8 @@ class Layout:
             child = earlier[asked.parent].turn(name, asked.because, changes)
             return replace(child, repair=asked.repair, bars=asked.bars, through=asked.through)
         start = asked.start or ("car" if asked.characteristics is not None else self.targets.start)
-        values = {**(self._from_targets() if start == "targets" else {}), **changes}
+        laid_out = self._from_targets() if start == "targets" else {}
+        values = {**laid_out, **read_knobs(self.targets.hold, "hold"), **changes}
         return Candidate(
             name,
             asked.characteristics or self.targets.characteristics,
@@ -192,14 +206,16 @@ class Layout:
         )
 
     def _from_targets(self) -> dict[str, float | str]:
-        """Springs of the wished frequency, straight in rebound with the same rate; dampers as they are to begin."""
+        """Springs of the wished frequency, straight in rebound with the same rate, or the largest that keeps the force
+        at the stop; dampers as they are to begin."""
         car, dampers = self.own(self.targets.characteristics), self.targets.dampers
         values: dict[str, float | str] = {}
         for axle in AXLES:
             frequency = self.targets.ride.frequency[axle]
             load = car.corner_mass(axle, "ko") * GRAVITY
             values[f"{axle}.frequency"] = frequency
-            values[f"{axle}.rebound_rate"] = load / GRAVITY * (2 * math.pi * frequency) ** 2
+            softest = (load - self.targets.ride.rebound_force) / -car.axle(axle).spring.stops.rebound
+            values[f"{axle}.rebound_rate"] = min(load / GRAVITY * (2 * math.pi * frequency) ** 2, softest)
             values[f"{axle}.damping"] = dampers.start
             values[f"{axle}.ratio"] = dampers.compression_to_rebound
             values[f"{axle}.bar"] = 0.0

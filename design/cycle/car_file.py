@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Sequence
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from vehicles.reading import VehicleFile, override
 from .candidate import Candidate, Layout
 from .characteristics import ONE_MASS
 from .checks import axles_of
-from .cycling import Outcome
+from .cycling import Outcome, kept_of
 
 PARTS = ("spring", "damper", "anti_roll_bar")
 """Of an axle, what a set of characteristics holds."""
@@ -38,36 +39,40 @@ def write_car(layout: Layout, outcomes: Sequence[Outcome], folder: Path) -> Path
     for path, value in layout.targets.set.items():
         override(document, path, value, layout.path.name)
     possible = [each for each in outcomes if all(finding.target != "possible" for finding in each.findings)]
-    chosen = next((each for each in possible if each.kept), possible[-1] if possible else None)
+    chosen = kept_of(outcomes) or (possible[-1] if possible else None)
     sets = document.setdefault("characteristics", tomlkit.table(is_super_table=True))
     for outcome in possible:
-        sets[set_name(outcome.candidate)] = _set(layout, outcome)
+        sets[set_name(layout, outcome.candidate)] = _set(layout, outcome)
     if chosen is not None:
-        _set_default(document, set_name(chosen.candidate))
+        _set_default(document, set_name(layout, chosen.candidate))
     if "sources" in document:
         for outcome in possible:
-            key = f"characteristics.{set_name(outcome.candidate)}"
+            key = f"characteristics.{set_name(layout, outcome.candidate)}"
             document["sources"][key] = f"estimated: laid out by susp_mj from {layout.path.name}"
-    _copy_beside(layout.file, document, folder)
+    _bring_files(layout.file, document, folder)
     path = write_text(folder / layout.file.path.name, tomlkit.dumps(document))
     _check(layout, possible, path)
     return path
 
 
-def set_name(candidate: Candidate) -> str:
-    """Name of a candidate's set of characteristics."""
-    return file_name(candidate.name).replace(".", "_")
+def set_name(layout: Layout, candidate: Candidate) -> str:
+    """Name of a candidate's set of characteristics; the sets that the file has stay what they are."""
+    name = file_name(candidate.name).replace(".", "_")
+    return f"{name}_candidate" if name in layout.file.sets else name
 
 
 def _set(layout: Layout, outcome: Outcome) -> dict[str, Any]:
-    car = layout.vehicle(outcome.candidate)
-    table: dict[str, Any] = {"title": f"{'kept' if outcome.kept else 'discarded'}: {outcome.candidate.because}"}
+    """The set that the candidate began with, its springs, dampers and bars in the candidate's place."""
+    car, file = layout.vehicle(outcome.candidate), layout.file
+    table = deepcopy(dict(file.sets.get(outcome.candidate.characteristics or file.default, {})))
+    table["title"] = f"{'kept' if outcome.kept else 'discarded'}: {outcome.candidate.because}"
     for name in AXLES:
-        axle = getattr(car, name)
-        parts = {part: getattr(axle, part) for part in PARTS}
-        table[name] = {
-            part: value.model_dump(mode="json", exclude_none=True) for part, value in parts.items() if value is not None
-        }
+        axle = table.setdefault(name, {})
+        for part in PARTS:
+            value = getattr(getattr(car, name), part)
+            axle.pop(part, None)
+            if value is not None:
+                axle[part] = value.model_dump(mode="json", exclude_none=True)
     return table
 
 
@@ -81,26 +86,29 @@ def _set_default(document: tomlkit.TOMLDocument, name: str) -> None:
     document.update(tomlkit.parse(f'default = "{name}"\n{text}'))
 
 
-def _copy_beside(file: VehicleFile, document: tomlkit.TOMLDocument, folder: Path) -> None:
-    """Copy what the file names beside itself: tyre files and plugins."""
-    tyres = [document.get(axle, {}).get("handling_tyre", {}).get("file") for axle in AXLES]
-    for name in (*tyres, *document.get("plugins", ())):
-        source = file.path.parent / str(name)
-        if name and source.is_file():
-            target = folder / str(name)
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
+def _bring_files(file: VehicleFile, document: tomlkit.TOMLDocument, folder: Path) -> None:
+    """Copy the tyre files that lie beside the car's file, and name its plugins where they are."""
+    here = file.path.parent
+    for tables in (document, *document.get("characteristics", {}).values()):
+        for axle in AXLES:
+            tyre = tables.get(axle, {}).get("handling_tyre", {})
+            source = here / str(tyre.get("file", ""))
+            if tyre.get("file") and not Path(str(tyre["file"])).is_absolute() and source.is_file():
+                folder.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(source, folder / source.name)
+                tyre["file"] = source.name
+    if "plugins" in document:
+        document["plugins"] = [str((here / str(each)).resolve()) for each in document["plugins"]]
 
 
 def _check(layout: Layout, outcomes: Sequence[Outcome], path: Path) -> None:
-    """Refuse a file whose sets are not the candidates, but for the progress of names."""
+    """Refuse a file whose sets are not the candidates that were tried."""
     written = VehicleFile.open(path)
+    named = {"name": "", "source": "", "title": "", "characteristics": "", "sources": {}}
     for outcome in outcomes:
-        wanted, found = layout.vehicle(outcome.candidate), written.vehicle(set_name(outcome.candidate))
-        for name in AXLES:
-            for part in PARTS:
-                if getattr(getattr(wanted, name), part) != getattr(getattr(found, name), part):
-                    raise SuspMjError(f"{path}: {name}.{part} of {outcome.candidate.name} was not written as it is")
+        wanted, found = layout.vehicle(outcome.candidate), written.vehicle(set_name(layout, outcome.candidate))
+        if wanted.model_copy(update=named) != found.model_copy(update=named):
+            raise SuspMjError(f"{path.name}: candidate {outcome.candidate.name} was not written as it is")
 
 
 def write_cases(layout: Layout, kept: Outcome, car: Path, folder: Path) -> list[Path]:
@@ -114,11 +122,19 @@ def _case(layout: Layout, title: str, model: str, manoeuvre: dict[str, Any]) -> 
     case: dict[str, Any] = {"title": title, "description": description, "model": model}
     if layout.targets.plugins:
         case["plugins"] = [str((layout.path.parent / each).resolve()) for each in layout.targets.plugins]
-    return {**case, "manoeuvre": manoeuvre}
+    return {**case, "manoeuvre": {key: _beside(layout, value) for key, value in manoeuvre.items()}}
 
 
-def _configurations(kept: Outcome, car: Path, places: Sequence[tuple[str, str | None]]) -> list[dict[str, Any]]:
-    characteristics = set_name(kept.candidate)
+def _beside(layout: Layout, value: Any) -> Any:
+    """A value of a manoeuvre; a file that lies beside the targets by its whole path."""
+    path = layout.path.parent / value if isinstance(value, str) else None
+    return str(path.resolve()) if path is not None and path.is_file() else value
+
+
+def _configurations(
+    layout: Layout, kept: Outcome, car: Path, places: Sequence[tuple[str, str | None]]
+) -> list[dict[str, Any]]:
+    characteristics = set_name(layout, kept.candidate)
     return [
         {
             "name": f"{kept.candidate.name}, {axle} axle, {load}" if axle else f"{kept.candidate.name}, {load}",
@@ -146,7 +162,7 @@ def _step_cases(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any]
                 {"kind": "step", "height": height, "duration": 2.5},
             ),
             "criteria": criteria,
-            "configuration": _configurations(kept, car, places),
+            "configuration": _configurations(layout, kept, car, places),
         }
         for height in targets.travel.steps
     ]
@@ -162,7 +178,7 @@ def _roll_case(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any]]
         {
             **_case(layout, "roll", "full_3dof", manoeuvre),
             "criteria": {"roll_angle_final": {"min": found.minimum, "max": found.maximum}},
-            "configuration": _configurations(kept, car, [(roll.load, None)]),
+            "configuration": _configurations(layout, kept, car, [(roll.load, None)]),
         }
     ]
 
@@ -174,6 +190,7 @@ def _check_cases(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any
             **({"step": check.step} if check.step is not None else {}),
             "criteria": {name: band.model_dump(exclude_none=True) for name, band in check.criteria.items()},
             "configuration": _configurations(
+                layout,
                 kept,
                 car,
                 [(load, axle) for axle in axles_of(check) for load in check.loads or layout.targets.loads],

@@ -20,6 +20,7 @@ from .ledger import Answered, Asked
 from .targets import Limits
 
 Ask = Callable[[list[Asked]], list[Answered]]
+NATURAL = "natural frequency"
 EVEN = 0.01
 """Share of an axle's need by which springs may exceed it before a bar of zero is a miss."""
 ONE_MASS = "quarter_1dof"
@@ -178,8 +179,15 @@ def _frequency(tried: Tried, axle: str) -> float:
 
 
 def frequencies(tried: Tried) -> Iterator[Finding]:
-    """Flat ride and the spread of the natural frequency over the loads, where they are asked for."""
+    """The natural frequencies, flat ride and the spread over the loads, where they are asked for."""
     ride, loads = tried.layout.targets.ride, tried.layout.targets.loads
+    for name, asked in ride.frequency.items():
+        found = _frequency(tried, name)
+        words = (
+            f"the {name} axle has {quantity_text(found, 'Hz')} in compression, asked is {quantity_text(asked, 'Hz')}"
+        )
+        what = ("frequencies", NATURAL, f"{name} axle", "of the body in compression, at the design load")
+        yield Finding(*what, {}, found, "Hz", asked * (1 - 1e-9), words=words)
     natural = {
         (name, load): _natural(tried, name, load) for name in AXLES for load in dict.fromkeys((DESIGN_LOAD, *loads))
     }

@@ -39,8 +39,8 @@ def places_of(tried: Tried, asked: Check, only: Collection[str] | None = None) -
     return [each for each in places if only is None or place_name(*each) in only]
 
 
-def axles_of(asked: Check) -> tuple[str | None, ...]:
-    """Axles that a check runs on one by one; None for a model of the whole car."""
+def axles_of(asked: Check | Response) -> tuple[str | None, ...]:
+    """Axles that a check or response runs on one by one; None for a model of the whole car."""
     return asked.axles or (AXLES if asked.model.startswith(ONE_AXLE) else (None,))
 
 
@@ -98,7 +98,7 @@ def trade_offs(tried: Tried, with_ratio: dict[str, Tried]) -> list[TradeOff]:
 
 
 def _ratio_runs(tried: Tried, response: Response) -> list[Asked]:
-    axles: tuple[str | None, ...] = response.axles or (None,)
+    axles = axles_of(response)
     return [
         tried.run(response.title, response.model, response.load, axle, response.manoeuvre, (response.number,))
         for axle in axles

@@ -26,6 +26,7 @@ from .characteristics import (
 from .checks import check
 from .knobs import KNOBS, Values
 from .repair import Repair, repair
+from .targets import STEPS
 
 Heard = Callable[[Candidate, Finding], None]
 
@@ -76,7 +77,7 @@ def assess(layout: Layout, candidate: Candidate, ask: Ask, heard: Heard = lambda
     for step in _steps(layout, candidate, ask):
         candidate = step.tried.candidate
         missed += failed(step.findings)
-        goes_on = goes_on and step.name != candidate.through
+        goes_on = goes_on and step.name in STEPS and step.name != candidate.through
         if missed and not goes_on:
             first = [each for each in missed if each.step == missed[0].step]
             return Outcome(candidate, tuple(findings), repair(step.tried, first, step.repair))
@@ -115,7 +116,7 @@ def with_bars(tried: Tried, needs: RollNeeds) -> Tried:
     """The candidate with the bars that its springs leave room for; none where they exceed the need."""
     layout = tried.layout
     laid_out = {f"{name}.bar": max(0.0, needs.bars[name]) for name in AXLES}
-    free = {knob: rate for knob, rate in laid_out.items() if knob not in layout.held}
+    free = {knob: rate for knob, rate in laid_out.items() if knob not in layout.fixed}
     candidate = replace(tried.candidate, turned={**tried.candidate.turned, **free})
     return replace(tried, candidate=candidate, car=layout.vehicle(candidate))
 
@@ -165,13 +166,26 @@ def cycle(
 
 
 def _repaired(layout: Layout, outcomes: list[Outcome], names: Iterator[str], ask: Ask, heard: Heard) -> None:
-    """Repair the last candidate, and what comes of it."""
-    for _ in range(layout.targets.most):
+    """Repair the last candidate, and what comes of it; a repair that leads back to an earlier one ends it."""
+    for _ in range(layout.targets.most - 1):
         last = outcomes[-1]
         if last.kept or last.repair is None or not last.repair.changes or not last.candidate.repair:
             return
-        child = last.candidate.turn(next(names), last.repair.because, last.repair.changes)
-        outcomes.append(assess(layout, child, ask, heard))
+        child = last.candidate.turn("", last.repair.because, last.repair.changes)
+        same = next((each.candidate.name for each in outcomes if _laid_out_alike(each.candidate, child)), None)
+        if same is not None:
+            end = f"the repair for it, {last.repair.because}, leads back to {same}: two targets contradict each other"
+            outcomes[-1] = replace(last, repair=Repair({}, end))
+            return
+        outcomes.append(assess(layout, replace(child, name=next(names)), ask, heard))
+
+
+def _laid_out_alike(one: Candidate, other: Candidate) -> bool:
+    """Whether two candidates differ in their bars at most, which are laid out anew."""
+    springs = [
+        {knob: value for knob, value in each.turned.items() if not knob.endswith(".bar")} for each in (one, other)
+    ]
+    return one.characteristics == other.characteristics and springs[0] == springs[1]
 
 
 def _first(layout: Layout, names: Iterator[str], outcomes: Sequence[Outcome]) -> Iterator[Candidate]:
@@ -219,9 +233,14 @@ def _reason(outcome: Outcome) -> str:
     return words if end is None or end.changes else f"{words}. {end.because[0].upper()}{end.because[1:]}"
 
 
+def kept_of(outcomes: Sequence[Outcome]) -> Outcome | None:
+    """The candidate that is kept: of several that meet every target the one that was tried last."""
+    return next((each for each in reversed(outcomes) if each.kept), None)
+
+
 def verdict(outcomes: Sequence[Outcome]) -> str:
     """One sentence: which candidate is kept, or which target cannot be met and by how much."""
-    kept = next((each for each in reversed(outcomes) if each.kept), None)
+    kept = kept_of(outcomes)
     if kept is not None:
         discarded = sum(not each.kept for each in outcomes)
         return (
@@ -229,7 +248,9 @@ def verdict(outcomes: Sequence[Outcome]) -> str:
             f"{len(kept.findings)} targets."
         )
     last = outcomes[-1]
-    if last.repair is not None and last.repair.changes and last.candidate.repair:
+    if not last.candidate.repair:
+        return f"No candidate that was set up by hand meets the targets; {last.candidate.name}: {_reason(last)}."
+    if last.repair is not None and last.repair.changes:
         count = len(outcomes)
         return f"None of {count} candidates meets the targets; {last.candidate.name} was the last: {_reason(last)}."
     return f"The targets cannot be met: {_reason(last)}."

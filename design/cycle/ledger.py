@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,6 +17,7 @@ from susp_mj.batch import side_by_side
 from susp_mj.errors import InputError, SimulationError
 from susp_mj.manoeuvre import Manoeuvre
 from susp_mj.plant import Plant
+from susp_mj.plugins import plugin_files
 from susp_mj.recording import Diverged, versions
 from susp_mj.run import Run
 from susp_mj.simulation import simulate
@@ -27,6 +29,7 @@ from ..case import read_manoeuvre
 ROOT = Path(__file__).parent.parent.parent
 PACKAGES = ("susp_mj", "vehicles", "manoeuvres", "evaluation")
 """Whose sources decide about a number."""
+SOURCES = (".py", ".csv")
 
 
 @dataclass(frozen=True)
@@ -83,24 +86,28 @@ class Ledger:
     all that it depends on: car file, overrides, model, manoeuvre, sources and versions.
     """
 
-    def __init__(self, path: Path, file: Path, plugins: Sequence[str], workers: int | None = None) -> None:
+    def __init__(self, path: Path, file: Path, workers: int | None = None) -> None:
         """Open the ledger `path` for the targets `file`."""
-        self.path, self.file, self.plugins, self.workers = path, file, plugins, workers
+        self.path, self.file, self.workers = path, file, workers
         self.known: dict[str, Answered] = {}
         self.simulated = 0
+        self._lock = threading.Lock()
         if path.is_file():
             self._read()
 
     def _read(self) -> None:
-        lines = self.path.read_bytes().split(b"\n")
-        whole = []
-        for line in lines[:-1]:  # what follows the last line end was cut off
-            entry = json.loads(line)
-            numbers = {name: Number(**number) for name, number in entry["numbers"].items()}
-            self.known[entry["key"]] = Answered(numbers, entry["failed"])
-            whole.append(line)
-        if lines[-1]:
-            self.path.write_bytes(b"".join(line + b"\n" for line in whole))
+        content = self.path.read_bytes()
+        whole = content.rfind(b"\n") + 1  # what follows the last line end was cut off
+        for i, line in enumerate(content[:whole].splitlines()):
+            try:
+                entry = json.loads(line)
+                numbers = {name: Number(**number) for name, number in entry["numbers"].items()}
+                self.known[entry["key"]] = Answered(numbers, entry["failed"])
+            except (ValueError, KeyError, TypeError):
+                text = f"line {i + 1} is damaged; take it out, or begin anew without --resume"
+                raise InputError(text, source=str(self.path)) from None
+        if whole < len(content):
+            os.truncate(self.path, whole)
 
     def ask(self, asked: Sequence[Asked], progress: Any = lambda name, done: None) -> list[Answered]:
         """Answers to all of these, side by side where they are not known.
@@ -115,25 +122,26 @@ class Ledger:
         side_by_side(
             jobs,
             lambda job: (job[0], self._prepared(job[1])),
-            lambda ready, done: (ready[0], ready[1], self._simulated(ready[1], done)),
-            lambda done: self._write(done[0], _answer(done[1].asked, done[2])),
+            lambda ready, done: self._write(ready[0], _answer(ready[1].asked, self._simulated(ready[1], done))),
+            lambda written: written,
             workers=self.workers,
             progress=lambda place, done: progress(jobs[place][1].label, done),
         )
         return [self.known[key] for key in keys]
 
     def _write(self, key: str, answered: Answered) -> None:
-        self.known[key] = answered
-        self.simulated += 1
+        """Keep an answer, on disk before anything else; called by the threads that have them."""
         numbers = {
             name: {"value": each.value, "unit": each.unit, "note": each.note, "applies": each.applies}
             for name, each in answered.numbers.items()
         }
         line = json.dumps({"key": key, "failed": answered.failed, "numbers": numbers}, ensure_ascii=False)
-        with self.path.open("ab") as file:
+        with self._lock, self.path.open("ab") as file:
             file.write(line.encode() + b"\n")
             file.flush()
             os.fsync(file.fileno())
+            self.known[key] = answered
+            self.simulated += 1
 
     def run(self, asked: Asked) -> Run | None:
         """The run itself, with its records; up to where it ends if it does not come to its end.
@@ -168,6 +176,7 @@ class Ledger:
             "load": asked.load,
             "axle": asked.axle,
             "manoeuvre": asked.manoeuvre,
+            "files": [_content(self.file.parent / each) for each in asked.manoeuvre.values() if isinstance(each, str)],
             "numbers": list(asked.numbers),
             "step": asked.step,
             "with": self._sources,
@@ -178,10 +187,15 @@ class Ledger:
     def _sources(self) -> str:
         """Hash of everything else that a number depends on: our sources, plugins and the versions of packages."""
         digest = hashlib.sha256(json.dumps(dict(versions()), sort_keys=True).encode())
-        plugins = [self.file.parent / each for each in self.plugins]
-        for path in (*plugins, *(each for name in PACKAGES for each in sorted((ROOT / name).rglob("*.py")))):
+        ours = [each for name in PACKAGES for each in sorted((ROOT / name).rglob("*")) if each.suffix in SOURCES]
+        for path in (*plugin_files(), *ours):
             digest.update(path.read_bytes())
         return digest.hexdigest()
+
+
+def _content(path: Path) -> str:
+    """Hash of a file that a manoeuvre may name; empty if it is none."""
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
 
 
 def _answer(asked: Asked, run: Run | SimulationError) -> Answered:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,14 +15,16 @@ from ..results import staged
 from .candidate import Layout
 from .car_file import write_car, write_cases
 from .components import write_components
-from .cycling import Branch, Heard, Outcome, cycle
+from .cycling import Branch, Heard, Outcome, cycle, kept_of
 from .ledger import Ledger
 from .targets import Targets
 from .telling import Progress, story
 
 STATE = "state"
 """Folder in the results that a cycle is resumed from: runs that are done, and branches."""
-WRITTEN = ("verdict.html", "verdict.json", "film.mp4", "*.toml", "cases/*.toml", "runs/*.nc", "components/*.csv")
+STATES = ("runs.jsonl", "branches.json")
+WRITTEN = ("verdict.html", "verdict.json", "film.mp4", "cases/*.toml", "runs/*.nc", "components/*.csv")
+"""Results, but for the car's file, which is called like the car's own."""
 
 
 def lay_out(
@@ -52,13 +53,21 @@ def lay_out(
         InputError: the targets do not fit the car, nothing is there to resume, or `out` cannot be written.
     """
     layout = Layout.open(targets, path)
+    for kind, file in (("targets", path), ("car", layout.file.path)):
+        if file.parent.resolve() == out.resolve():
+            raise InputError(f"holds the file of the {kind}, which results could replace; choose another", key=str(out))
     state = _state(out, resume=resume or branch is not None)
-    branches = [*_read_branches(state), *([] if branch is None else [branch])]
-    ledger = Ledger(state / "runs.jsonl", path, targets.plugins, workers)
-    outcomes = cycle(layout, lambda asked: ledger.ask(asked, progress), heard, branches)
+    before = _read_branches(state)
+    branches = before if branch is None or branch in before else [*before, branch]
     _write_branches(state, branches)
+    ledger = Ledger(state / "runs.jsonl", path, workers)
+    try:
+        outcomes = cycle(layout, lambda asked: ledger.ask(asked, progress), heard, branches)
+    except InputError:
+        _write_branches(state, before)
+        raise
     told = story(layout, outcomes, ledger, progress)
-    with staged(out, marker="verdict.json", patterns=WRITTEN) as stage:
+    with staged(out, marker="verdict.json", patterns=(*WRITTEN, layout.file.path.name)) as stage:
         _write(layout, outcomes, told, stage, video=video, progress=progress)
     return told
 
@@ -69,9 +78,10 @@ def _state(out: Path, *, resume: bool) -> Path:
     if resume and not (state / "runs.jsonl").is_file():
         raise InputError(f"there is nothing to resume in {out}", key="resume")
     try:
-        if not resume:
-            shutil.rmtree(state, ignore_errors=True)
         state.mkdir(parents=True, exist_ok=True)
+        if not resume:
+            for name in STATES:
+                (state / name).unlink(missing_ok=True)
         (state / "runs.jsonl").touch()
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror}", source=str(out)) from None
@@ -86,7 +96,7 @@ def _read_branches(state: Path) -> list[Branch]:
 
 
 def _write_branches(state: Path, branches: Sequence[Branch]) -> None:
-    if branches:
+    if branches or (state / "branches.json").exists():
         plain = [{"parent": b.parent, "change": dict(b.change), "because": b.because} for b in branches]
         write_text(state / "branches.json", json.dumps(plain, indent=2, ensure_ascii=False) + "\n")
 
@@ -97,7 +107,7 @@ def _write(
     from evaluation.pages.verdict import write_verdict, write_verdict_json
 
     car = write_car(layout, outcomes, stage)
-    kept = next((each for each in reversed(outcomes) if each.kept), None)
+    kept = kept_of(outcomes)
     if kept is not None:
         write_cases(layout, kept, car, stage / "cases")
         write_components(layout.vehicle(kept.candidate), layout.targets, stage / "components")

@@ -4,7 +4,7 @@ runs."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from evaluation.story import Finding, Influence
 from susp_mj.names import AXLES
@@ -36,9 +36,29 @@ def reach(layout: Layout, outcome: Outcome, ask: Ask) -> list[Influence]:
         return []
     tries = {knob: each for knob in KNOBS if (each := _turned(layout, outcome.candidate, knob)) is not None}
     ask([run for _, candidate in tries.values() for run in _manoeuvres(layout, candidate, ask, missed)])
-    before = _held_against(layout, outcome.candidate, ask, missed)
-    turned = {knob: (words, _held_against(layout, each, ask, missed)) for knob, (words, each) in tries.items()}
-    return [each for target in missed for each in _strongest(target, before, turned)]
+    turned = {
+        knob: Turned(
+            words, *(_held_against(layout, each, ask, missed) for each in (_written(layout, outcome, knob), new))
+        )
+        for knob, (words, new) in tries.items()
+    }
+    return [each for target in missed for each in _strongest(target, turned)]
+
+
+@dataclass(frozen=True)
+class Turned:
+    """A knob by how much in words, and the findings before and after."""
+
+    words: str
+    before: Mapping[str, Finding]
+    after: Mapping[str, Finding]
+
+
+def _written(layout: Layout, outcome: Outcome, knob: str) -> Candidate:
+    """The candidate with a knob where it stands, but in the kind of spring or damper that turning it makes."""
+    candidate = outcome.candidate
+    turned = {**candidate.turned, knob: layout.values(candidate)[knob]}
+    return replace(candidate, turned=turned, bars=candidate.bars and KNOBS[knob].part != "bar")
 
 
 def _turned(layout: Layout, candidate: Candidate, knob: str) -> tuple[str, Candidate] | None:
@@ -123,16 +143,14 @@ def _ride(tried: Tried) -> Iterable[Finding]:
             yield Finding("ride", title, where, "", {}, answer.numbers[number].value, "m/s²")
 
 
-def _strongest(
-    target: Finding, before: Mapping[str, Finding], turned: Mapping[str, tuple[str, Mapping[str, Finding]]]
-) -> list[Influence]:
+def _strongest(target: Finding, turned: Mapping[str, Turned]) -> list[Influence]:
     """The knobs that move a target most, with what else they move."""
     found = []
-    for knob, (words, after) in turned.items():
-        moved = _moved(before.get(target.key), after.get(target.key))
-        if moved is not None and abs(moved) > LEAST * _size(before[target.key]):
-            also = sorted(_also(target.key, before, after), key=lambda each: -each[0])[:ALSO]
-            influence = Influence(target.key, knob, words, moved, target.unit, {key: by for _, key, by in also})
+    for knob, each in turned.items():
+        moved = _moved(each.before.get(target.key), each.after.get(target.key))
+        if moved is not None and abs(moved) > LEAST * _size(each.before[target.key]):
+            also = sorted(_also(target.key, each.before, each.after), key=lambda one: -one[0])[:ALSO]
+            influence = Influence(target.key, knob, each.words, moved, target.unit, {key: by for _, key, by in also})
             found.append(influence)
     return sorted(found, key=lambda each: -abs(each.moved))[:MOST]
 

@@ -12,7 +12,7 @@ from susp_mj.elements import GRAVITY
 from susp_mj.names import AXLES
 from vehicles.vehicle import DESIGN_LOAD
 
-from .characteristics import Tried, rebound_limit
+from .characteristics import NATURAL, Tried, rebound_limit
 from .knobs import Values
 
 STIFFER, SOFTER, FURTHER = 1.15, 0.95, 0.05
@@ -41,7 +41,7 @@ def repair(tried: Tried, missed: Sequence[Finding], asked: str | None) -> Repair
         missed: what it missed in one step.
         asked: name of the repair that a check asks for.
     """
-    rule = _BY_STEP.get(missed[0].step) or _BY_NAME.get(asked or "")
+    rule = _BY_NAME.get(asked or "") or _BY_STEP.get(missed[0].step)
     if rule is None:
         return Repair({}, "no repair is known for it")
     wished = rule(tried, missed)
@@ -49,7 +49,7 @@ def repair(tried: Tried, missed: Sequence[Finding], asked: str | None) -> Repair
     free = {knob: value for knob, value in wished.changes.items() if knob not in held}
     if held and not free:
         return Repair({}, f"{_in_a_row(held)} {'is' if len(held) == 1 else 'are'} held, and nothing else would help")
-    return Repair(free, wished.because)
+    return Repair(free, wished.because + (f"; {_in_a_row(held)} held" if held else ""))
 
 
 def _axles(missed: Sequence[Finding]) -> list[str]:
@@ -94,16 +94,19 @@ def _needed_frequency(tried: Tried, name: str) -> float | None:
 
 
 def _more_damping(tried: Tried, missed: Sequence[Finding]) -> Repair:
-    """Raise the damper rate in proportion to what is missing, up to the largest one."""
+    """Turn the damper rate in proportion to what is missing, in steps of 100 N s/m, up to the largest one."""
     values, most, changes, words = tried.layout.values(tried.candidate), tried.layout.targets.dampers.most, {}, []
     for name in _axles(missed):
         rate = float(values[f"{name}.damping"])
-        shares = [_lacking(each) for each in missed if f"{name} axle" in each.where]
-        wished = math.ceil(rate * max(shares, default=STIFFER) / 100) * 100.0
-        if wished > most:
-            return Repair({}, f"{name} damping of {wished:.0f} N s/m would be needed, allowed are {most:.0f}")
-        changes[f"{name}.damping"] = wished
-        words.append(f"{name} damping {'raised' if wished > rate else 'lowered'} to {wished:.0f} N s/m")
+        shares = [_lacking(each) for each in missed if f"{name} axle" in each.where] or [STIFFER]
+        if min(shares) < 1 < max(shares):
+            return Repair({}, f"no damping of the {name} axle does for all loads")
+        needed = rate * (max(shares) if max(shares) > 1 else min(shares))
+        rounded = math.ceil(needed / 100) * 100.0 if needed > rate else max(math.floor(needed / 100) * 100.0, 100.0)
+        if needed > most:
+            return Repair({}, f"{name} damping of {needed:.0f} N s/m would be needed, allowed are {most:.0f}")
+        changes[f"{name}.damping"] = min(rounded, most)
+        words.append(f"{name} damping {'raised' if needed > rate else 'lowered'} to {min(rounded, most):.0f} N s/m")
     return Repair(changes, ", ".join(words))
 
 
@@ -114,6 +117,20 @@ def _lacking(finding: Finding) -> float:
     if finding.minimum is not None and finding.value < finding.minimum:
         return finding.minimum / finding.value
     return (finding.maximum or finding.value) / finding.value
+
+
+def _of_steps(tried: Tried, missed: Sequence[Finding]) -> Repair:
+    """Stiffer compression where stops are hit; more damping where the body only overshoots."""
+    hits = [each for each in missed if each.target == "stop hits"]
+    return _stiffer_compression(tried, hits) if hits else _more_damping(tried, missed)
+
+
+def _of_frequencies(tried: Tried, missed: Sequence[Finding]) -> Repair:
+    """The frequency that is asked for; flat ride and spread follow from springs that something else decides."""
+    asked: dict[str, float] = {**tried.layout.targets.ride.frequency}
+    low = [name for name in AXLES for each in missed if each.target == NATURAL and f"{name} axle" in each.where]
+    words = ", ".join(f"{name} frequency raised to {asked[name]:.2f} Hz, which is asked" for name in low)
+    return Repair({f"{name}.frequency": asked[name] for name in low}, words or "no repair is known for it")
 
 
 def _stiffer_compression(tried: Tried, missed: Sequence[Finding]) -> Repair:
@@ -173,7 +190,8 @@ Rule = Callable[[Tried, Sequence[Finding]], Repair]
 _BY_STEP: dict[str, Rule] = {
     "load range": _of_load_range,
     "damping": _more_damping,
-    "steps": _stiffer_compression,
+    "frequencies": _of_frequencies,
+    "steps": _of_steps,
     "bars": _of_bars,
 }
 _BY_NAME: dict[str, Rule] = {

@@ -9,9 +9,11 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from evaluation.display import quantity_text
 from evaluation.numbers import NUMBERS
 from susp_mj.description import Description, one_of, validate, wrong
 from susp_mj.errors import InputError, choices
+from susp_mj.files import file_name
 from susp_mj.names import AXLES
 from susp_mj.plugins import load_plugins
 from susp_mj.units import Damping, Length, NaturalFrequency, NonNegativeForce, PositiveLength, Quantity
@@ -48,6 +50,8 @@ class Limits(Description):
 
     @model_validator(mode="after")
     def _in_order(self) -> Limits:
+        if self.min is None and self.max is None:
+            raise wrong("give 'min', 'max' or both")
         if self.min is not None and self.max is not None and self.min > self.max:
             raise wrong(f"min {self.min:g} lies above max {self.max:g}")
         return self
@@ -154,6 +158,8 @@ class Check(Description):
         for name, band in self.criteria.items():
             if name not in NUMBERS:
                 raise wrong(f"'{name}' unknown; {choices(NUMBERS, name)}", "criteria")
+            if band.min is None and band.max is None:
+                raise wrong("give 'min', 'max' or both", f"criteria.{name}")
             band.criterion(NUMBERS[name].unit, f"criteria.{name}")
         return self
 
@@ -173,6 +179,12 @@ class Response(Description):
     model: str = "handling"
     load: str = "ko"
     axles: tuple[Axle, ...] | None = None
+
+    @model_validator(mode="after")
+    def _known(self) -> Response:
+        if self.model not in MODELS:
+            raise wrong(f"'{self.model}' unknown; {choices(MODELS, self.model)}", "model")
+        return self
 
 
 class TradeOffs(Description):
@@ -278,11 +290,22 @@ class Targets(Description):
         read_knobs(self.hold, "hold")
         if self.start == "targets" and set(self.ride.frequency) != set(AXLES):
             raise wrong("give front and rear, or start = 'car'", "ride.frequency")
-        names = [each.name for each in self.check]
-        for name in names:
-            if names.count(name) > 1:
-                raise wrong(f"'{name}' names two checks", "check")
+        taken = {"ride", *STEPS, *(f"step of {quantity_text(height, 'm')}" for height in self.travel.steps)}
+        _different([each.name for each in self.check], taken, "check")
+        _different([each.name for each in self.candidate if each.name], set(), "candidate")
         return self
+
+
+def _different(names: Sequence[str], taken: set[str], key: str) -> None:
+    """Refuse names that a file system or a table would take for each other."""
+    seen = {file_name(name).casefold(): name for name in taken}
+    for i, name in enumerate(names):
+        alike = seen.get(file_name(name).casefold())
+        if alike is not None:
+            raise wrong(
+                f"'{name}' is taken" + ("" if alike == name else f"; it is too much like '{alike}'"), f"{key}.{i}.name"
+            )
+        seen[file_name(name).casefold()] = name
 
 
 def read_knobs(table: Mapping[str, Any], key: str) -> dict[str, float | str]:

@@ -18,7 +18,7 @@ from .candidate import Candidate, Layout
 from .characteristics import Ask, Tried
 from .checks import place_name, places_of, run_of, trade_offs
 from .components import component_rows
-from .cycling import Outcome, attempt, verdict
+from .cycling import Outcome, attempt, kept_of, verdict
 from .ledger import Answered, Asked, Ledger
 from .reach import reach
 from .targets import STEPS
@@ -43,7 +43,8 @@ def story(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress:
     for place, outcome in enumerate(outcomes):
         progress(f"knobs of {outcome.candidate.name}", place / len(outcomes))
         attempts.append(replace(attempt(layout, outcome), influences=reach(layout, outcome, ask)))
-    kept = next((each.candidate for each in reversed(outcomes) if each.kept), None)
+    last = kept_of(outcomes)
+    kept = None if last is None else last.candidate
     progress("trade-offs", 0.0)
     return Story(
         targets.title,
@@ -57,10 +58,10 @@ def story(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress:
             load: {axle: layout.own(targets.characteristics).corner_mass(axle, load) * GRAVITY for axle in AXLES}
             for load in targets.loads
         },
-        component_rows(layout.vehicle(kept), targets) if kept is not None else {},
         _runs(layout, outcomes, ledger, progress),
         notes(layout),
         {"targets": layout.path.name, "vehicle": layout.file.path.name, **dict(versions())},
+        component_rows(layout.vehicle(kept), targets) if kept is not None else {},
     )
 
 

@@ -546,7 +546,7 @@ def test_compiled_law_is_the_python_law(number):
         (TableDamper, {"speed": [-1, 1], "force": [100, 200]}, "force.0", "feed energy in"),
         (TableDamper, {"speed": [-1, 0.5, 1], "force": [-100, 300, 200]}, "force.2", "increase strictly"),
         (TableDamper, {"speed": [0.1, 1], "force": [100, 200]}, "speed", "below 0"),
-        (LinkageFriction, {"force": -1}, "force", "greater than 0"),
+        (LinkageFriction, {"force": -1}, "force", "at least 0"),
         (LinkageFriction, {"force": float("nan")}, "force", "finite"),
     ],
 )

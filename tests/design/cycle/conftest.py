@@ -35,7 +35,7 @@ class Bench:
         self.path.write_text(text, encoding="utf-8")
         targets, path = load_targets(self.path)
         self.layout = Layout.open(targets, path)
-        self.ledger = Ledger(folder / "runs.jsonl", path, targets.plugins, workers=2)
+        self.ledger = Ledger(folder / "runs.jsonl", path, workers=2)
 
 
 @pytest.fixture

@@ -99,6 +99,17 @@ def test_a_resumed_cycle_simulates_nothing_and_says_the_same(folder):
     assert ((out / "verdict.json").read_bytes(), (out / "state" / "runs.jsonl").read_bytes()) == before
 
 
+def test_a_candidate_named_like_a_set_leaves_the_set_alone(tmp_path):
+    by_hand = "[[candidate]]\nname = 'configuration_4'\nchange = { 'rear.damping' = '1700 N s/m' }\n"
+    (tmp_path / "mine.toml").write_text(TARGETS + by_hand, encoding="utf-8")
+    targets, path = load_targets(tmp_path / "mine.toml")
+    story = lay_out(targets, path, tmp_path / "out")
+    file, own = VehicleFile.open(tmp_path / "out" / "s_class.toml"), VehicleFile.open("s_class")
+    assert story.kept.name == "configuration_4" and file.default == "configuration_4_candidate"
+    assert file.vehicle("configuration_4").rear == own.vehicle("configuration_4").rear
+    assert file.vehicle().rear != own.vehicle("configuration_4").rear
+
+
 def test_branches_stay(folder):
     targets, path = load_targets(folder / "mine.toml")
     out = folder / "branched"
@@ -185,3 +196,54 @@ def test_a_car_of_one_set_beside_its_tyre(tmp_path):
     file = VehicleFile.open(tmp_path / "out" / "own.toml")
     assert file.default == "B" and set(file.sets) == {"A", "B"}
     assert list((tmp_path / "out").glob("my_*.tir"))
+
+
+def test_a_set_of_more_than_springs_and_a_plugin_come_along(tmp_path):
+    """Track and friction of a set, an element of a plugin, a tyre in a folder of its own: the written car is the one
+    that was tried."""
+    source = VehicleFile.open("s_class")
+    text = source.path.read_text(encoding="utf-8")
+    document = tomlkit.parse(text)
+    document["characteristics"]["configuration_4"]["front"].update({"friction": {"force": 300.0}, "track": 1.5})
+    document["plugins"] = ["plugin.py"]
+    (tmp_path / "plugin.py").write_text("import numpy\n", encoding="utf-8")
+    (tmp_path / "mine").mkdir()
+    for axle in ("front", "rear"):
+        file = Path(document[axle]["handling_tyre"]["file"]).name
+        document[axle]["handling_tyre"]["file"] = f"mine/{file}"
+        (tmp_path / "mine" / file).write_bytes((source.path.parent / "tyres" / file).read_bytes())
+    (tmp_path / "s_class.toml").write_text(tomlkit.dumps(document), encoding="utf-8")
+    (tmp_path / "mine.toml").write_text(TARGETS.replace('"s_class"', '"s_class.toml"'), encoding="utf-8")
+    targets, path = load_targets(tmp_path / "mine.toml")
+    story = lay_out(targets, path, tmp_path / "out")
+    car = VehicleFile.open(tmp_path / "out" / "s_class.toml").vehicle(story.kept.name)
+    assert (car.front.track, car.front.friction.force) == (1.5, 300.0)
+
+
+def test_results_never_replace_what_they_come_from(tmp_path):
+    (tmp_path / "mine.toml").write_text(TARGETS, encoding="utf-8")
+    (tmp_path / "state").mkdir()
+    (tmp_path / "state" / "diary.txt").write_text("mine", encoding="utf-8")
+    targets, path = load_targets(tmp_path / "mine.toml")
+    with pytest.raises(InputError, match="holds the file of the targets"):
+        lay_out(targets, path, tmp_path)
+    assert (tmp_path / "state" / "diary.txt").is_file() and (tmp_path / "mine.toml").is_file()
+
+
+def test_of_two_kept_candidates_all_speak_of_the_same(tmp_path):
+    by_hand = "".join(
+        f"[[candidate]]\nname = '{name}'\nchange = {{ 'rear.damping' = '{rate} N s/m' }}\n"
+        for name, rate in (("P", 1700), ("Q", 1900))
+    )
+    (tmp_path / "mine.toml").write_text(TARGETS + by_hand, encoding="utf-8")
+    targets, path = load_targets(tmp_path / "mine.toml")
+    story = lay_out(targets, path, tmp_path / "out")
+    assert story.kept.name == VehicleFile.open(tmp_path / "out" / "s_class.toml").default == "Q"
+    assert story.verdict.startswith("Q is kept")
+
+
+def test_a_damaged_ledger_is_one_line(bench):
+    table = bench()
+    table.ledger.path.write_bytes(b"not json\n")
+    with pytest.raises(InputError, match="line 1 is damaged"):
+        bench()

@@ -25,6 +25,28 @@ WRONG = {
     "vehicle": ('"s_class"', '"s_clas"', "vehicle", "s_class"),
     "set": ('"configuration_4"', '"configuration_9"', "characteristics", "configuration_4"),
     "load": ('"full"]', '"fuller"]', "loads", "full"),
+    "load of the roll": ("front_share", "load = 'half'\nfront_share", "roll.load", "no load case 'half'"),
+    "trade-off": (
+        "[roll]",
+        "[[trade_off.response]]\ntitle = 'x'\nload = 'half'\nmanoeuvre = { kind = 'bump' }\n"
+        "number = 'overshoot'\n[roll]",
+        "trade_off.response.0.load",
+        "choose ko",
+    ),
+    "names alike": (
+        "[roll]",
+        "[[candidate]]\nname='a b'\n[[candidate]]\nname='a_b'\n[roll]",
+        "candidate.1.name",
+        "taken",
+    ),
+    "named like a step": ("[roll]", CHECK.replace('"x"', '"steps"'), "check.0.name", "taken"),
+    "empty band": (
+        "[roll]",
+        CHECK.replace("{ max = 0 }", "{}"),
+        "check.0.criteria.wheel_lift_time",
+        "give 'min', 'max'",
+    ),
+    "set of a candidate": ("[ride]", "[[candidate]]\ncharacteristics = 'nope'\n[ride]", "candidate.0", "no set 'nope'"),
     "knob": ("[ride]", "[hold]\n'front.frequncy' = true\n[ride]", "hold.front.frequncy", "front.frequency"),
     "held value": ("[ride]", "[hold]\n'front.bar' = '3 Hz'\n[ride]", "hold.front.bar", "N/m"),
     "no manoeuvre": (
