@@ -30,6 +30,8 @@ ROOT = Path(__file__).parent.parent.parent
 PACKAGES = ("susp_mj", "vehicles", "manoeuvres", "evaluation")
 """Whose sources decide about a number."""
 SOURCES = (".py", ".csv")
+Told = Callable[[str, float], None]
+"""Progress: what is being done and the fraction done."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,7 @@ class Ledger:
         if whole < len(content):
             os.truncate(self.path, whole)
 
-    def ask(self, asked: Sequence[Asked], progress: Any = lambda name, done: None) -> list[Answered]:
+    def ask(self, asked: Sequence[Asked], progress: Told = lambda name, done: None) -> list[Answered]:
         """Answers to all of these, side by side where they are not known.
 
         Raises:
@@ -143,16 +145,20 @@ class Ledger:
             self.known[key] = answered
             self.simulated += 1
 
-    def run(self, asked: Asked) -> Run | None:
-        """The run itself, with its records; up to where it ends if it does not come to its end.
+    def runs(self, asked: Sequence[Asked], progress: Told = lambda name, done: None) -> list[Run | None]:
+        """The runs themselves, with their records; up to where they end if they do not come to their end.
 
         Raises:
             InputError: as `ask`.
         """
-        run = self._simulated(self._prepared(asked), lambda done: None)
-        if isinstance(run, SimulationError):
-            return run.run if isinstance(run, Diverged) else None
-        return run
+        return side_by_side(
+            asked,
+            self._prepared,
+            self._simulated,
+            lambda run: run if isinstance(run, Run) else run.run if isinstance(run, Diverged) else None,
+            workers=self.workers,
+            progress=lambda place, done: progress(f"figures: {asked[place].label}", done),
+        )
 
     def _prepared(self, asked: Asked) -> _Prepared:
         manoeuvre = read_manoeuvre(asked.manoeuvre, self.file)

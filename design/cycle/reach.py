@@ -3,7 +3,7 @@ runs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from evaluation.story import Finding, Influence
@@ -26,12 +26,15 @@ LEAST, BESIDES = 5e-3, 0.02
 """A missed target, and anything else, moves if it does so by more than this share of its size or its bounds."""
 
 
-def reach(layout: Layout, outcome: Outcome, ask: Ask) -> list[Influence]:
+def reach(layout: Layout, outcome: Outcome, targets: Collection[str], ask: Ask) -> list[Influence]:
     """The knobs that move what a candidate missed: three for each target.
 
     Springs are turned with the bars laid out anew, as a repair would do it; a bar by itself.
+
+    Args:
+        targets: keys of the findings that are looked at.
     """
-    missed = outcome.missed
+    missed = [each for each in outcome.missed if each.key in targets]
     if not missed or (missed[0].value is None and all(each.value is None for each in missed)):
         return []
     tries = {knob: each for knob in KNOBS if (each := _turned(layout, outcome.candidate, knob)) is not None}

@@ -23,7 +23,7 @@ from .ledger import Answered, Asked, Ledger
 from .reach import reach
 from .targets import STEPS
 
-SHOWN = 6
+SHOWN = 4
 """So many candidates are shown on the steps, the last ones."""
 
 Progress = Callable[[str, float], None]
@@ -40,9 +40,12 @@ def story(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress:
         return ledger.ask(asked, progress)
 
     attempts: list[Attempt] = []
+    latest = {finding.key: place for place, outcome in enumerate(outcomes) for finding in outcome.missed}
     for place, outcome in enumerate(outcomes):
         progress(f"knobs of {outcome.candidate.name}", place / len(outcomes))
-        attempts.append(replace(attempt(layout, outcome), influences=reach(layout, outcome, ask)))
+        looked_at = [key for key, last in latest.items() if last == place]  # each target where it was missed last
+        influences = reach(layout, outcome, looked_at, ask)
+        attempts.append(replace(attempt(layout, outcome), influences=influences))
     last = kept_of(outcomes)
     kept = None if last is None else last.candidate
     progress("trade-offs", 0.0)
@@ -95,12 +98,10 @@ def _runs(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress:
     """Runs of the kept and the last discarded candidate on every check that they reached, and of the last candidates
     on the steps at the lightest and the heaviest load: check -> place -> candidate -> run."""
     wanted = [*_on_steps(layout, outcomes, ledger.ask), *_on_checks(layout, outcomes, ledger.ask)]
+    runs = ledger.runs([asked for _, asked in wanted], progress)
     found: dict[str, dict[str, dict[str, Run]]] = {}
-    for place, (names, asked) in enumerate(wanted):
-        progress(f"figures: {asked.label}", place / len(wanted))
-        run = ledger.run(asked)
+    for ((check, where, candidate), _), run in zip(wanted, runs, strict=True):
         if run is not None:
-            check, where, candidate = names
             found.setdefault(check, {}).setdefault(where, {})[candidate] = run
     return found
 
