@@ -353,20 +353,22 @@ def bars(tried: Tried, needs: RollNeeds) -> Iterator[Finding]:
         )
 
 
+def roll_runs(tried: Tried) -> list[Asked]:
+    """The run under the lateral force; none where no roll is asked for."""
+    roll = tried.layout.targets.roll
+    if roll is None:
+        return []
+    manoeuvre: dict[str, object] = {"kind": "lateral_force", "acceleration": roll.lateral_acceleration}
+    numbers = ("roll_angle_final", "load_transfer_share")
+    return [tried.run("lateral force", "full_3dof", roll.load, None, manoeuvre, numbers)]
+
+
 def rolled(tried: Tried) -> Iterator[Finding]:
     """The roll of the whole car under the lateral force, and the load transfer it shares out."""
     roll = tried.layout.targets.roll
     if roll is None:
         return
-    run = tried.run(
-        "lateral force",
-        "full_3dof",
-        roll.load,
-        None,
-        {"kind": "lateral_force", "acceleration": roll.lateral_acceleration},
-        ("roll_angle_final", "load_transfer_share"),
-    )
-    answer = tried.ask([run])[0]
+    answer = tried.ask(roll_runs(tried))[0]
     found = answer.numbers.get("roll_angle_final")
     angle = None if found is None or found.value is None else abs(found.value)
     words = answer.failed or (

@@ -8,9 +8,23 @@ from dataclasses import dataclass, replace
 
 from evaluation.story import Finding, Influence
 from susp_mj.names import AXLES
+from vehicles.vehicle import DESIGN_LOAD
 
 from .candidate import Candidate, Layout
-from .characteristics import Ask, Tried, bars, damping, frequencies, load_range, needs_of, possible, rolled, steps
+from .characteristics import (
+    ONE_MASS,
+    Ask,
+    Tried,
+    bars,
+    damping,
+    frequencies,
+    load_range,
+    needs_of,
+    possible,
+    roll_runs,
+    rolled,
+    steps,
+)
 from .checks import check, places_of, run_of
 from .cycling import Outcome, with_bars
 from .knobs import KNOBS, ratio_of, ratio_text
@@ -20,6 +34,7 @@ TURN = 0.1
 """Share by which a knob is turned; a frequency by half of it, its spring's rate then moves as much."""
 LEAST_BAR = 1000.0
 """[N/m] by which a bar is turned at least."""
+RIDE = "body_acceleration_max"
 MOST, ALSO = 3, 3
 """So many knobs are named for a target, and so many things that each moves besides."""
 LEAST, BESIDES = 5e-3, 0.02
@@ -86,9 +101,9 @@ def _turned(layout: Layout, candidate: Candidate, knob: str) -> tuple[str, Candi
 
 
 def _manoeuvres(layout: Layout, candidate: Candidate, ask: Ask, missed: list[Finding]) -> list[Asked]:
-    """The runs of the checks that were missed, to be asked for side by side."""
+    """The runs that a candidate is held against, but for steps, to be asked for side by side."""
     tried = _laid_out(layout, candidate, ask)
-    return [
+    return [*roll_runs(tried), *_ride_runs(tried)] + [
         run_of(tried, asked, *place)
         for asked in layout.targets.check
         if asked.name in {each.step for each in missed}
@@ -115,35 +130,30 @@ def _held_against(layout: Layout, candidate: Candidate, ask: Ask, missed: list[F
         found += bars(tried, needs)
         tried = _laid_out(layout, candidate, ask)
         found += rolled(tried)
-    found += _ride(tried)
+    found += _ride(_laid_out(layout, candidate, ask))
     for asked in layout.targets.check:
         if asked.name in names:
             found += check(tried, asked, {each.where for each in missed})
     return {each.key: each for each in found}
 
 
-def _ride(tried: Tried) -> Iterable[Finding]:
-    """Peak acceleration of the body on a step of middling height, as something that every knob may move."""
+def _ride_runs(tried: Tried) -> list[Asked]:
+    """A step of middling height under either axle in the design position; none where no steps are asked for."""
     heights = sorted(tried.layout.targets.travel.steps)
     if not heights:
-        return
-    height, load = heights[(len(heights) - 1) // 2], "ko"
-    number = "body_acceleration_max"
-    asked = [
-        tried.run(
-            f"ride, {name} axle",
-            "quarter_1dof",
-            load,
-            name,
-            {"kind": "step", "height": height, "duration": 1.5},
-            (number,),
-        )
-        for name in AXLES
-    ]
-    for name, answer in zip(AXLES, tried.ask(asked), strict=True):
+        return []
+    manoeuvre: dict[str, object] = {"kind": "step", "height": heights[(len(heights) - 1) // 2], "duration": 1.5}
+    return [tried.run(f"ride, {name} axle", ONE_MASS, DESIGN_LOAD, name, manoeuvre, (RIDE,)) for name in AXLES]
+
+
+def _ride(tried: Tried) -> Iterable[Finding]:
+    """Peak acceleration of the body on that step, as something that every knob may move."""
+    asked = _ride_runs(tried)
+    for run, answer in zip(asked, tried.ask(asked), strict=True):
         if not answer.failed:
-            where, title = f"{name} axle, {load}", f"body acceleration on a step of {1000 * height:.0f} mm"
-            yield Finding("ride", title, where, "", {}, answer.numbers[number].value, "m/s²")
+            height = 1000 * float(run.manoeuvre["height"])
+            where, title = f"{run.axle} axle, {run.load}", f"body acceleration on a step of {height:.0f} mm"
+            yield Finding("ride", title, where, "", {}, answer.numbers[RIDE].value, "m/s²")
 
 
 def _strongest(target: Finding, turned: Mapping[str, Turned]) -> list[Influence]:
