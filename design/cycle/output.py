@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from evaluation.story import Story
-from susp_mj.errors import InputError
+from susp_mj.errors import InputError, SuspMjError
 from susp_mj.files import file_name, write_text
 
 from ..results import staged
@@ -68,7 +68,9 @@ def lay_out(
         raise
     told = story(layout, outcomes, ledger, progress)
     with staged(out, marker="verdict.json", patterns=(*WRITTEN, layout.file.path.name)) as stage:
-        _write(layout, outcomes, told, stage, video=video, progress=progress)
+        no_film = _write(layout, outcomes, told, stage, video=video, progress=progress)
+    if no_film is not None:
+        raise no_film
     return told
 
 
@@ -103,7 +105,8 @@ def _write_branches(state: Path, branches: Sequence[Branch]) -> None:
 
 def _write(
     layout: Layout, outcomes: Sequence[Outcome], told: Story, stage: Path, *, video: bool, progress: Progress
-) -> None:
+) -> SuspMjError | None:
+    """Write everything; returns why there is no film, which leaves the other results there."""
     from evaluation.pages.verdict import write_verdict, write_verdict_json
 
     car = write_car(layout, outcomes, stage)
@@ -116,34 +119,46 @@ def _write(
         for place, runs in places.items():
             for name, run in runs.items():
                 run.save(stage / "runs" / f"{file_name(f'{check}, {place}, {name}')}.nc")
-    videos = [_film(told, stage / "film.mp4", progress)] if video else []
     progress("write the verdict", 0.0)
-    write_verdict(told, stage / "verdict.html", [each for each in videos if each])
     write_verdict_json(told, stage / "verdict.json")
+    film, failed = None, None
+    if video:
+        try:
+            film = _film(told, stage / "film.mp4", progress)
+        except SuspMjError as error:
+            failed = error
+    write_verdict(told, stage / "verdict.html", [] if film is None else [film])
+    return failed
 
 
-def _film(told: Story, path: Path, progress: Progress) -> str:
-    """Ghost film of the last discarded against the kept candidate on the first check that both drove; empty if there is
-    none."""
+def _film(told: Story, path: Path, progress: Progress) -> Path:
+    """Ghost film of the last discarded against the kept candidate on the first check that both drove.
+
+    Raises:
+        SuspMjError: it cannot be rendered, or there are no two candidates to show.
+    """
     from evaluation.animation.clip import Clip
     from evaluation.animation.kinds import kind_of
     from evaluation.animation.render import render_video
 
-    for _, _, runs in _driven(told.runs):
-        clips = [Clip(name, run) for name, run in runs.items()]
-        if len(clips) == 2:
-            quality = kind_of(clips).quality
-            return render_video(
-                clips, path, layout="ghost", quality=quality, progress=lambda done: progress("render film", done)
-            ).name
-    return ""
+    driven = next((runs for runs in _driven(told.runs) if len(runs) == 2), None)
+    if driven is None:
+        raise InputError("there is nothing to film: no discarded candidate drove what the kept one did", key="--video")
+    clips = [Clip(name, run) for name, run in driven.items()]
+    return render_video(
+        clips,
+        path,
+        layout="ghost",
+        quality=kind_of(clips).quality,
+        progress=lambda done: progress("render film", done),
+    )
 
 
-def _driven(runs: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> list[tuple[str, str, Mapping[str, Any]]]:
-    """Check, place and runs of the candidates that drove freely there."""
+def _driven(runs: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> list[Mapping[str, Any]]:
+    """Runs, by candidate, of the checks and places at which they drove freely."""
     return [
-        (check, place, each)
-        for check, places in runs.items()
-        for place, each in places.items()
+        each
+        for places in runs.values()
+        for each in places.values()
         if all(run.meta.get("car") == "handling" for run in each.values())
     ]

@@ -247,3 +247,45 @@ def test_a_damaged_ledger_is_one_line(bench):
     table.ledger.path.write_bytes(b"not json\n")
     with pytest.raises(InputError, match="line 1 is damaged"):
         bench()
+
+
+def test_a_film_that_cannot_be_made_leaves_the_results(tmp_path):
+    """These targets ask for no manoeuvre of a driving car: there is nothing to film."""
+    (tmp_path / "mine.toml").write_text(TARGETS, encoding="utf-8")
+    targets, path = load_targets(tmp_path / "mine.toml")
+    with pytest.raises(InputError, match="nothing to film"):
+        lay_out(targets, path, tmp_path / "out", video=True)
+    assert (tmp_path / "out" / "verdict.html").is_file()
+
+
+def test_the_last_discarded_car_is_filmed_beside_the_kept_one(tmp_path, monkeypatch):
+    """The clips and the place of the film; what it shows is tested where films are."""
+    filmed = {}
+
+    def render(clips, path, *, layout, quality, progress):
+        filmed.update(names=[clip.label for clip in clips], layout=layout)
+        path.write_bytes(b"film")
+        return path
+
+    monkeypatch.setattr("evaluation.animation.render.render_video", render)
+    check = """
+[[check]]
+name = "step steer"
+manoeuvre = { kind = "step_steer", duration = 2.0 }
+loads = ["ko"]
+criteria = { lateral_acceleration_max = { max = "%s m/s²" } }
+"""
+    by_hand = "[[candidate]]\nname = 'P'\nchange = { 'rear.damping' = '1700 N s/m' }\nrepair = false\n"
+    (tmp_path / "mine.toml").write_text(TARGETS + check % 0.1 + by_hand, encoding="utf-8")
+    targets, path = load_targets(tmp_path / "mine.toml")
+    with pytest.raises(InputError, match="nothing to film"):
+        lay_out(targets, path, tmp_path / "out", video=True)
+    more = "[[candidate]]\nname = 'Q'\nchange = { 'rear.damping' = '1750 N s/m' }\n"
+    (tmp_path / "mine.toml").write_text(TARGETS + check % 0.1 + by_hand + more, encoding="utf-8")
+    targets, path = load_targets(tmp_path / "mine.toml")
+    monkeypatch.setattr("design.cycle.telling._compared", lambda outcomes: outcomes)
+    lay_out(targets, path, tmp_path / "out", video=True)
+    assert filmed == {"names": ["P", "Q"], "layout": "ghost"}
+    assert "film.mp4" in (tmp_path / "out" / "verdict.html").read_text(encoding="utf-8") or "data:video" in (
+        tmp_path / "out" / "verdict.html"
+    ).read_text(encoding="utf-8")
