@@ -41,6 +41,12 @@ def rate_around(spring: Spring, deflection: float, reach: float = 1e-3) -> float
     return (carried(spring, deflection + reach) - carried(spring, deflection - reach)) / (2 * reach)
 
 
+def static_rate(vehicle: Vehicle, axle: str, load: str) -> float:
+    """Mean rate [N/m] of one wheel's spring over ±1 mm around its static deflection in a load case."""
+    spring = vehicle.axle(axle).spring
+    return rate_around(spring, static_deflection(spring, vehicle.corner_mass(axle, load) * GRAVITY))
+
+
 def damping_ratio(vehicle: Vehicle, axle: str, load: str, damping: float) -> float:
     """Damping ratio of the body on one wheel's spring, ``D/(2 sqrt(k m))``, k over ±1 mm around the static deflection.
 
@@ -49,9 +55,7 @@ def damping_ratio(vehicle: Vehicle, axle: str, load: str, damping: float) -> flo
     Args:
         damping: D [N s/m], the mean of compression and rebound.
     """
-    spring, mass = vehicle.axle(axle).spring, vehicle.corner_mass(axle, load)
-    stiffness = rate_around(spring, static_deflection(spring, mass * GRAVITY))
-    return damping / (2 * math.sqrt(stiffness * mass))
+    return damping / (2 * math.sqrt(static_rate(vehicle, axle, load) * vehicle.corner_mass(axle, load)))
 
 
 def roll_lever(vehicle: Vehicle, load: str = DESIGN_LOAD) -> float:

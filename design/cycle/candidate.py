@@ -14,7 +14,7 @@ from susp_mj.elements import GRAVITY
 from susp_mj.errors import InputError
 from susp_mj.names import AXLES
 from vehicles.reading import VehicleFile
-from vehicles.vehicle import Vehicle
+from vehicles.vehicle import DESIGN_LOAD, Vehicle
 
 from ..case import read_manoeuvre
 from .knobs import Values, knobs_of, overrides
@@ -212,7 +212,7 @@ class Layout:
         values: dict[str, float | str] = {}
         for axle in AXLES:
             frequency = self.targets.ride.frequency[axle]
-            load = car.corner_mass(axle, "ko") * GRAVITY
+            load = car.corner_mass(axle, DESIGN_LOAD) * GRAVITY
             values[f"{axle}.frequency"] = frequency
             softest = (load - self.targets.ride.rebound_force) / -car.axle(axle).spring.stops.rebound
             values[f"{axle}.rebound_rate"] = min(load / GRAVITY * (2 * math.pi * frequency) ** 2, softest)

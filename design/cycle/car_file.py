@@ -19,8 +19,8 @@ from susp_mj.names import AXLES
 from vehicles.reading import VehicleFile, override
 
 from .candidate import Candidate, Layout
-from .characteristics import ONE_MASS
-from .checks import axles_of
+from .characteristics import ONE_MASS, ROLLING, lateral_force_of, place_name, step_of
+from .checks import places_of
 from .cycling import Outcome, kept_of
 
 PARTS = ("spring", "damper", "anti_roll_bar")
@@ -38,7 +38,7 @@ def write_car(layout: Layout, outcomes: Sequence[Outcome], folder: Path) -> Path
     document = tomlkit.parse(layout.file.path.read_text(encoding="utf-8"))
     for path, value in layout.targets.set.items():
         override(document, path, value, layout.path.name)
-    possible = [each for each in outcomes if all(finding.target != "possible" for finding in each.findings)]
+    possible = [each for each in outcomes if each.possible]
     chosen = kept_of(outcomes) or (possible[-1] if possible else None)
     sets = document.setdefault("characteristics", tomlkit.table(is_super_table=True))
     for outcome in possible:
@@ -137,7 +137,7 @@ def _configurations(
     characteristics = set_name(layout, kept.candidate)
     return [
         {
-            "name": f"{kept.candidate.name}, {axle} axle, {load}" if axle else f"{kept.candidate.name}, {load}",
+            "name": f"{kept.candidate.name}, {place_name(load, axle)}",
             "vehicle": f"../{car.name}",
             "characteristics": characteristics,
             "load": load,
@@ -155,12 +155,7 @@ def _step_cases(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any]
     places = [(load, axle) for axle in AXLES for load in targets.loads]
     return [
         {
-            **_case(
-                layout,
-                f"step of {quantity_text(height, 'm')}",
-                ONE_MASS,
-                {"kind": "step", "height": height, "duration": 2.5},
-            ),
+            **_case(layout, f"step of {quantity_text(height, 'm')}", ONE_MASS, step_of(height)),
             "criteria": criteria,
             "configuration": _configurations(layout, kept, car, places),
         }
@@ -173,10 +168,9 @@ def _roll_case(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any]]
     found: Finding | None = next((each for each in kept.findings if each.step == "roll"), None)
     if roll is None or found is None or found.minimum is None or found.maximum is None:
         return []
-    manoeuvre = {"kind": "lateral_force", "acceleration": roll.lateral_acceleration}
     return [
         {
-            **_case(layout, "roll", "full_3dof", manoeuvre),
+            **_case(layout, "roll", ROLLING, lateral_force_of(roll)),
             "criteria": {"roll_angle_final": {"min": found.minimum, "max": found.maximum}},
             "configuration": _configurations(layout, kept, car, [(roll.load, None)]),
         }
@@ -189,12 +183,7 @@ def _check_cases(layout: Layout, kept: Outcome, car: Path) -> list[dict[str, Any
             **_case(layout, check.name, check.model, check.manoeuvre),
             **({"step": check.step} if check.step is not None else {}),
             "criteria": {name: band.model_dump(exclude_none=True) for name, band in check.criteria.items()},
-            "configuration": _configurations(
-                layout,
-                kept,
-                car,
-                [(load, axle) for axle in axles_of(check) for load in check.loads or layout.targets.loads],
-            ),
+            "configuration": _configurations(layout, kept, car, places_of(layout, check)),
         }
         for check in layout.targets.check
     ]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from evaluation.display import quantity_text
 from evaluation.numbers import Number
@@ -12,20 +13,38 @@ from evaluation.story import Finding
 from susp_mj.elements import GRAVITY
 from susp_mj.errors import InputError
 from susp_mj.names import AXLES
-from vehicles.rates import RollNeeds, damping_ratio, rate_around, roll_needs, static_deflection
+from vehicles.rates import RollNeeds, damping_ratio, roll_needs, static_deflection, static_rate
 from vehicles.vehicle import DESIGN_LOAD, Vehicle
 
 from .candidate import Candidate, Layout
 from .ledger import Answered, Asked
-from .targets import Limits
+from .targets import Limits, Roll
 
 Ask = Callable[[list[Asked]], list[Answered]]
-NATURAL = "natural frequency"
+POSSIBLE, NATURAL = "possible", "natural frequency"
+"""Targets that others ask about by name."""
 EVEN = 0.01
 """Share of an axle's need by which springs may exceed it before a bar of zero is a miss."""
 ONE_MASS = "quarter_1dof"
 """Model on which steps of the road are tried: the wheel follows the road."""
+ROLLING = "full_3dof"
+"""Model on which the roll is tried."""
 ON_STEPS = ("stop_hits", "overshoot", "contact_loss_time")
+
+
+def place_name(load: str, axle: str | None) -> str:
+    """Where something is, as findings name it."""
+    return f"{axle} axle, {load}" if axle else load
+
+
+def step_of(height: float) -> dict[str, Any]:
+    """Table of the step of the road [m]."""
+    return {"kind": "step", "height": height, "duration": 2.5}
+
+
+def lateral_force_of(roll: Roll) -> dict[str, Any]:
+    """Table of the force under which the roll is tried."""
+    return {"kind": "lateral_force", "acceleration": roll.lateral_acceleration}
 
 
 @dataclass(frozen=True)
@@ -44,13 +63,18 @@ class Tried:
     car: Vehicle
     ask: Ask
 
+    @classmethod
+    def of(cls, layout: Layout, candidate: Candidate, ask: Ask) -> Tried:
+        """A candidate with its car."""
+        return cls(layout, candidate, layout.vehicle(candidate), ask)
+
     def run(
         self,
         label: str,
         model: str,
         load: str,
         axle: str | None,
-        manoeuvre: dict[str, object],
+        manoeuvre: Mapping[str, Any],
         numbers: tuple[str, ...],
         step: float | None = None,
         key: str = "",
@@ -71,9 +95,8 @@ class Tried:
 
     def step(self, height: float, axle: str, load: str) -> Asked:
         """A step of the road [m] under one axle."""
-        label = f"step of {quantity_text(height, 'm')}, {axle} axle, {load}"
-        manoeuvre = {"kind": "step", "height": height, "duration": 2.5}
-        return self.run(label, ONE_MASS, load, axle, manoeuvre, ON_STEPS)
+        label = f"step of {quantity_text(height, 'm')}, {place_name(load, axle)}"
+        return self.run(label, ONE_MASS, load, axle, step_of(height), ON_STEPS)
 
     def corner_force(self, axle: str, load: str) -> float:
         """Static force [N] on one wheel's spring."""
@@ -90,7 +113,7 @@ def possible(layout: Layout, candidate: Candidate) -> Finding | None:
         key = error.key.split(".")[0]
         return Finding(
             "characteristics",
-            "possible",
+            POSSIBLE,
             key,
             "",
             {},
@@ -113,14 +136,13 @@ def load_range(tried: Tried) -> Iterator[Finding]:
         heaviest = max(targets.loads, key=lambda load: tried.corner_force(name, load))
         lightest = min(targets.loads, key=lambda load: tried.corner_force(name, load))
         static = static_deflection(spring, tried.corner_force(name, heaviest))
-        left, room = stop.compression - static - height, stop.compression - height - targets.travel.reserve
-        asked = _least_frequency(tried.corner_force(name, heaviest) / design, room)
+        left, asked = stop.compression - static - height, least_frequency(tried, name)
         needs = "no frequency does" if asked is None else f"needs at least {quantity_text(asked, 'Hz')}"
         short = targets.travel.reserve - left
         yield Finding(
             "load range",
             "travel left in compression",
-            f"{name} axle, {heaviest}",
+            place_name(heaviest, name),
             "x_max - x_static - h >= reserve, so f >= sqrt(g ln(F/F_0)/(x_max - h - reserve))/2π",
             {
                 "x_max": quantity_text(stop.compression, "m"),
@@ -143,7 +165,7 @@ def load_range(tried: Tried) -> Iterator[Finding]:
         yield Finding(
             "load range",
             "travel left in rebound",
-            f"{name} axle, {lightest}",
+            place_name(lightest, name),
             "x_static - x_min > 0",
             {"x_static": quantity_text(static, "m"), "x_min": quantity_text(stop.rebound, "m")},
             static - stop.rebound,
@@ -167,11 +189,14 @@ def load_range(tried: Tried) -> Iterator[Finding]:
         )
 
 
-def _least_frequency(load_ratio: float, room: float) -> float | None:
-    """Natural frequency [Hz] of a spring of constant frequency that meets a load ratio within a room [m]."""
-    if load_ratio <= 1.0:
-        return 0.0
-    return math.sqrt(GRAVITY * math.log(load_ratio) / room) / (2 * math.pi) if room > 0 else None
+def least_frequency(tried: Tried, name: str) -> float | None:
+    """Natural frequency [Hz] with which a spring of constant frequency carries the load range, the largest step and the
+    reserve on top; None if no spring does."""
+    targets = tried.layout.targets
+    ratio = max(tried.corner_force(name, load) for load in targets.loads) / tried.corner_force(name, DESIGN_LOAD)
+    stop = tried.car.axle(name).spring.stops.compression
+    room = stop - max(targets.travel.steps, default=0.0) - targets.travel.reserve
+    return math.sqrt(GRAVITY * math.log(max(ratio, 1.0)) / room) / (2 * math.pi) if room > 0 else None
 
 
 def _frequency(tried: Tried, axle: str) -> float:
@@ -214,8 +239,7 @@ def frequencies(tried: Tried) -> Iterator[Finding]:
 
 
 def _natural(tried: Tried, axle: str, load: str) -> float:
-    spring, force = tried.car.axle(axle).spring, tried.corner_force(axle, load)
-    return math.sqrt(rate_around(spring, static_deflection(spring, force)) * GRAVITY / force) / (2 * math.pi)
+    return math.sqrt(static_rate(tried.car, axle, load) / tried.car.corner_mass(axle, load)) / (2 * math.pi)
 
 
 def damping(tried: Tried) -> Iterator[Finding]:
@@ -225,8 +249,6 @@ def damping(tried: Tried) -> Iterator[Finding]:
     for name in AXLES:
         rate = float(values[f"{name}.damping"])
         for load in targets.loads:
-            spring, mass = tried.car.axle(name).spring, tried.car.corner_mass(name, load)
-            stiffness = rate_around(spring, static_deflection(spring, mass * GRAVITY))
             ratio = damping_ratio(tried.car, name, load, rate)
             low = targets.dampers.ratio.min
             side = "under" if low is not None and ratio < low else "over"
@@ -236,13 +258,13 @@ def damping(tried: Tried) -> Iterator[Finding]:
                 (
                     "damping",
                     "damping ratio",
-                    f"{name} axle, {load}",
+                    place_name(load, name),
                     "D/(2 sqrt(k m)), k over ±1 mm, friction left out",
                 ),
                 {
                     "D": quantity_text(rate, "N s/m"),
-                    "k": quantity_text(stiffness, "N/m"),
-                    "m": f"{mass:.1f} kg",
+                    "k": quantity_text(static_rate(tried.car, name, load), "N/m"),
+                    "m": f"{tried.car.corner_mass(name, load):.1f} kg",
                 },
                 f"the {name} axle is {side}-damped at load {load}",
                 assumed="ratio" not in targets.dampers.model_fields_set,
@@ -277,7 +299,7 @@ def _on_steps(name: str, load: str, found: list[tuple[float, Answered]], limit: 
     yield Finding(
         "steps",
         "stop hits",
-        f"{name} axle, {load}",
+        place_name(load, name),
         "step of the road, quarter_1dof",
         heights,
         None if failed else float(sum(hits.values())),
@@ -292,7 +314,7 @@ def _on_steps(name: str, load: str, found: list[tuple[float, Answered]], limit: 
         yield Finding(
             "steps",
             "overshoot",
-            f"{name} axle, {load}",
+            place_name(load, name),
             "(z_max - z_end)/(z_end - z_0), quarter_1dof",
             heights,
             None if failed or math.isnan(most) else most,
@@ -358,9 +380,8 @@ def roll_runs(tried: Tried) -> list[Asked]:
     roll = tried.layout.targets.roll
     if roll is None:
         return []
-    manoeuvre: dict[str, object] = {"kind": "lateral_force", "acceleration": roll.lateral_acceleration}
     numbers = ("roll_angle_final", "load_transfer_share")
-    return [tried.run("lateral force", "full_3dof", roll.load, None, manoeuvre, numbers)]
+    return [tried.run("lateral force", ROLLING, roll.load, None, lateral_force_of(roll), numbers)]
 
 
 def rolled(tried: Tried) -> Iterator[Finding]:

@@ -10,7 +10,8 @@ from evaluation.story import Finding, TradeOff
 from susp_mj.names import AXLES
 
 from ..case import read_manoeuvre
-from .characteristics import Tried
+from .candidate import Layout
+from .characteristics import Tried, place_name
 from .ledger import Answered, Asked
 from .targets import Check, Response
 
@@ -26,16 +27,16 @@ def check(tried: Tried, asked: Check, only: Collection[str] | None = None) -> It
     manoeuvre = read_manoeuvre(asked.manoeuvre, tried.layout.path)
     title = f"{manoeuvre.declared().title}, {asked.model}"
     bands = {name: band.criterion(NUMBERS[name].unit, name) for name, band in asked.criteria.items()}
-    places = places_of(tried, asked, only)
+    places = places_of(tried.layout, asked, only)
     answers = tried.ask([run_of(tried, asked, load, axle) for load, axle in places])
     for (load, axle), answer in zip(places, answers, strict=True):
         for name, band in bands.items():
             yield _finding(asked.name, name, place_name(load, axle), title, answer, band)
 
 
-def places_of(tried: Tried, asked: Check, only: Collection[str] | None = None) -> list[tuple[str, str | None]]:
+def places_of(layout: Layout, asked: Check, only: Collection[str] | None = None) -> list[tuple[str, str | None]]:
     """Loads and axles at which a check runs; `only` as of `check`."""
-    places = [(load, axle) for axle in axles_of(asked) for load in asked.loads or tried.layout.targets.loads]
+    places = [(load, axle) for axle in axles_of(asked) for load in asked.loads or layout.targets.loads]
     return [each for each in places if only is None or place_name(*each) in only]
 
 
@@ -49,11 +50,6 @@ def run_of(tried: Tried, asked: Check, load: str, axle: str | None) -> Asked:
     label, numbers = f"{asked.name}, {place_name(load, axle)}", tuple(asked.criteria)
     key = f"check.{tried.layout.targets.check.index(asked)}"
     return tried.run(label, asked.model, load, axle, asked.manoeuvre, numbers, asked.step, key)
-
-
-def place_name(load: str, axle: str | None) -> str:
-    """Where a run is, as findings name it."""
-    return f"{axle} axle, {load}" if axle else load
 
 
 def _finding(check_name: str, name: str, where: str, title: str, answer: Answered, band: Criterion) -> Finding:

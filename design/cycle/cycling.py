@@ -12,6 +12,7 @@ from vehicles.rates import RollNeeds
 
 from .candidate import Candidate, Layout
 from .characteristics import (
+    POSSIBLE,
     Ask,
     Tried,
     bars,
@@ -55,6 +56,11 @@ class Outcome:
         """Targets that were not."""
         return [each for each in self.findings if not each.passed]
 
+    @property
+    def possible(self) -> bool:
+        """Whether the candidate is a car at all."""
+        return all(each.target != POSSIBLE for each in self.findings)
+
 
 def assess(layout: Layout, candidate: Candidate, ask: Ask, heard: Heard = lambda candidate, finding: None) -> Outcome:
     """Hold a candidate against the targets, step by step up to the first in which it misses one, or to the one that it
@@ -94,7 +100,7 @@ class _Step:
 
 def _steps(layout: Layout, candidate: Candidate, ask: Ask) -> Iterator[_Step]:
     """Every step of the cycle in its order; the bars are laid out on the way."""
-    tried = Tried(layout, candidate, layout.vehicle(candidate), ask)
+    tried = Tried.of(layout, candidate, ask)
     for name, step in (
         ("load range", load_range),
         ("frequencies", frequencies),

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from susp_mj.elements import GRAVITY, ProgressiveSpring, ZonedDamper
+from susp_mj.elements.dampers import ratio_of
 from susp_mj.names import AXLES
 from susp_mj.units import to_si
 from vehicles.vehicle import Axle, Vehicle
@@ -61,21 +62,6 @@ KNOBS: dict[str, Knob] = {
 }
 REPAIRS = ("stiffer_compression", "stiffer_rebound", "softer_rebound", "more_damping")
 """What a missed target may ask for."""
-
-
-def ratio_of(value: Any) -> tuple[float, float]:
-    """Compression and rebound of a text like "1:2".
-
-    Raises:
-        ValueError: anything else.
-    """
-    try:
-        compression, rebound = (float(part) for part in str(value).split(":"))
-    except ValueError:
-        raise ValueError(f"{value!r} is not a ratio; write it like '1:2'") from None
-    if not (1e-3 <= compression <= 1e3 and 1e-3 <= rebound <= 1e3):
-        raise ValueError(f"{value!r} is not allowed; both parts lie between 0.001 and 1000")
-    return compression, rebound
 
 
 def ratio_text(ratio: tuple[float, float]) -> str:

@@ -25,13 +25,12 @@ from vehicles.mjcf import build
 from vehicles.vehicle import Vehicle
 
 from ..case import read_manoeuvre
+from ..running import Report
 
 ROOT = Path(__file__).parent.parent.parent
 PACKAGES = ("susp_mj", "vehicles", "manoeuvres", "evaluation")
 """Whose sources decide about a number."""
 SOURCES = (".py", ".csv")
-Told = Callable[[str, float], None]
-"""Progress: what is being done and the fraction done."""
 
 
 @dataclass(frozen=True)
@@ -111,7 +110,7 @@ class Ledger:
         if whole < len(content):
             os.truncate(self.path, whole)
 
-    def ask(self, asked: Sequence[Asked], progress: Told = lambda name, done: None) -> list[Answered]:
+    def ask(self, asked: Sequence[Asked], progress: Report = lambda name, done: None) -> list[Answered]:
         """Answers to all of these, side by side where they are not known.
 
         Raises:
@@ -145,7 +144,7 @@ class Ledger:
             self.known[key] = answered
             self.simulated += 1
 
-    def runs(self, asked: Sequence[Asked], progress: Told = lambda name, done: None) -> list[Run | None]:
+    def runs(self, asked: Sequence[Asked], progress: Report = lambda name, done: None) -> list[Run | None]:
         """The runs themselves, with their records; up to where they end if they do not come to their end.
 
         Raises:

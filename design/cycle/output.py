@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
+from evaluation.numbers import drives
 from evaluation.story import Story
 from susp_mj.errors import InputError, SuspMjError
 from susp_mj.files import file_name, write_text
 
 from ..results import staged
+from ..running import Report
 from .candidate import Layout
 from .car_file import write_car, write_cases
 from .components import write_components
 from .cycling import Branch, Heard, Outcome, cycle, kept_of
 from .ledger import Ledger
 from .targets import Targets
-from .telling import Progress, story
+from .telling import story
 
 STATE = "state"
 """Folder in the results that a cycle is resumed from: runs that are done, and branches."""
@@ -37,7 +38,7 @@ def lay_out(
     video: bool = False,
     workers: int | None = None,
     heard: Heard = lambda candidate, finding: None,
-    progress: Progress = lambda task, done: None,
+    progress: Report = lambda task, done: None,
 ) -> Story:
     """Go through a cycle and leave ``verdict.html``, ``verdict.json``, the car's file with every candidate as a set,
     ``cases/*.toml`` that hold the kept one against its targets again, ``runs/*.nc`` and a film in `out`.
@@ -104,7 +105,7 @@ def _write_branches(state: Path, branches: Sequence[Branch]) -> None:
 
 
 def _write(
-    layout: Layout, outcomes: Sequence[Outcome], told: Story, stage: Path, *, video: bool, progress: Progress
+    layout: Layout, outcomes: Sequence[Outcome], told: Story, stage: Path, *, video: bool, progress: Report
 ) -> SuspMjError | None:
     """Write everything; returns why there is no film, which leaves the other results there."""
     from evaluation.pages.verdict import write_verdict, write_verdict_json
@@ -131,7 +132,7 @@ def _write(
     return failed
 
 
-def _film(told: Story, path: Path, progress: Progress) -> Path:
+def _film(told: Story, path: Path, progress: Report) -> Path:
     """Ghost film of the last discarded against the kept candidate on the first check that both drove.
 
     Raises:
@@ -141,7 +142,8 @@ def _film(told: Story, path: Path, progress: Progress) -> Path:
     from evaluation.animation.kinds import kind_of
     from evaluation.animation.render import render_video
 
-    driven = next((runs for runs in _driven(told.runs) if len(runs) == 2), None)
+    places = (runs for check in told.runs.values() for runs in check.values())
+    driven = next((runs for runs in places if len(runs) == 2 and all(map(drives, runs.values()))), None)
     if driven is None:
         raise InputError("there is nothing to film: no discarded candidate drove what the kept one did", key="--video")
     clips = [Clip(name, run) for name, run in driven.items()]
@@ -152,13 +154,3 @@ def _film(told: Story, path: Path, progress: Progress) -> Path:
         quality=kind_of(clips).quality,
         progress=lambda done: progress("render film", done),
     )
-
-
-def _driven(runs: Mapping[str, Mapping[str, Mapping[str, Any]]]) -> list[Mapping[str, Any]]:
-    """Runs, by candidate, of the checks and places at which they drove freely."""
-    return [
-        each
-        for places in runs.values()
-        for each in places.values()
-        if all(run.meta.get("car") == "handling" for run in each.values())
-    ]

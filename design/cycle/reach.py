@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from evaluation.story import Finding, Influence
+from susp_mj.elements.dampers import ratio_of
 from susp_mj.names import AXLES
 from vehicles.vehicle import DESIGN_LOAD
 
@@ -20,6 +21,7 @@ from .characteristics import (
     frequencies,
     load_range,
     needs_of,
+    place_name,
     possible,
     roll_runs,
     rolled,
@@ -27,7 +29,7 @@ from .characteristics import (
 )
 from .checks import check, places_of, run_of
 from .cycling import Outcome, with_bars
-from .knobs import KNOBS, ratio_of, ratio_text
+from .knobs import KNOBS, ratio_text
 from .ledger import Asked
 
 TURN = 0.1
@@ -107,13 +109,13 @@ def _manoeuvres(layout: Layout, candidate: Candidate, ask: Ask, missed: list[Fin
         run_of(tried, asked, *place)
         for asked in layout.targets.check
         if asked.name in {each.step for each in missed}
-        for place in places_of(tried, asked, {each.where for each in missed})
+        for place in places_of(layout, asked, {each.where for each in missed})
     ]
 
 
 def _laid_out(layout: Layout, candidate: Candidate, ask: Ask) -> Tried:
     """The candidate, with its bars laid out anew if that is wished."""
-    tried = Tried(layout, candidate, layout.vehicle(candidate), ask)
+    tried = Tried.of(layout, candidate, ask)
     needs = needs_of(tried) if candidate.bars else None
     return tried if needs is None else with_bars(tried, needs)
 
@@ -121,16 +123,16 @@ def _laid_out(layout: Layout, candidate: Candidate, ask: Ask) -> Tried:
 def _held_against(layout: Layout, candidate: Candidate, ask: Ask, missed: list[Finding]) -> dict[str, Finding]:
     """Findings of the steps in closed form, of the roll, and of the step that was missed, by key."""
     names = {each.step for each in missed}
-    tried = Tried(layout, candidate, layout.vehicle(candidate), ask)
+    tried = Tried.of(layout, candidate, ask)
     found: list[Finding] = [*load_range(tried), *frequencies(tried), *damping(tried)]
     if "steps" in names:
         found += steps(tried)
     needs = needs_of(tried)
     if needs is not None:
         found += bars(tried, needs)
-        tried = _laid_out(layout, candidate, ask)
+        tried = with_bars(tried, needs) if candidate.bars else tried
         found += rolled(tried)
-    found += _ride(_laid_out(layout, candidate, ask))
+    found += _ride(tried)
     for asked in layout.targets.check:
         if asked.name in names:
             found += check(tried, asked, {each.where for each in missed})
@@ -142,7 +144,7 @@ def _ride_runs(tried: Tried) -> list[Asked]:
     heights = sorted(tried.layout.targets.travel.steps)
     if not heights:
         return []
-    manoeuvre: dict[str, object] = {"kind": "step", "height": heights[(len(heights) - 1) // 2], "duration": 1.5}
+    manoeuvre = {"kind": "step", "height": heights[(len(heights) - 1) // 2], "duration": 1.5}
     return [tried.run(f"ride, {name} axle", ONE_MASS, DESIGN_LOAD, name, manoeuvre, (RIDE,)) for name in AXLES]
 
 
@@ -152,7 +154,7 @@ def _ride(tried: Tried) -> Iterable[Finding]:
     for run, answer in zip(asked, tried.ask(asked), strict=True):
         if not answer.failed:
             height = 1000 * float(run.manoeuvre["height"])
-            where, title = f"{run.axle} axle, {run.load}", f"body acceleration on a step of {height:.0f} mm"
+            where, title = place_name(run.load, run.axle), f"body acceleration on a step of {height:.0f} mm"
             yield Finding("ride", title, where, "", {}, answer.numbers[RIDE].value, "m/s²")
 
 

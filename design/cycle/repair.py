@@ -8,11 +8,10 @@ from dataclasses import dataclass
 
 from evaluation.display import quantity_text
 from evaluation.story import Finding
-from susp_mj.elements import GRAVITY
 from susp_mj.names import AXLES
 from vehicles.vehicle import DESIGN_LOAD
 
-from .characteristics import NATURAL, Tried, rebound_limit
+from .characteristics import NATURAL, Tried, least_frequency, rebound_limit
 from .knobs import Values
 
 STIFFER, SOFTER, FURTHER = 1.15, 0.95, 0.05
@@ -64,9 +63,10 @@ def _of_load_range(tried: Tried, missed: Sequence[Finding]) -> Repair:
     for name in _axles(missed):
         of_axle = [each for each in missed if f"{name} axle" in each.where]
         if any(each.target == "travel left in compression" for each in of_axle):
-            needed = _needed_frequency(tried, name)
-            if needed is None:
+            least = least_frequency(tried, name)
+            if least is None:
                 return Repair({}, f"no spring of the {name} axle does: the largest step takes all travel")
+            needed = math.ceil(100 * least) / 100
             changes[f"{name}.frequency"] = needed
             words.append(f"{name} frequency raised to {needed:.2f} Hz, which the load range needs")
         if any(each.target == "force at the rebound stop" for each in of_axle):
@@ -80,17 +80,6 @@ def _of_load_range(tried: Tried, missed: Sequence[Finding]) -> Repair:
             changes[f"{name}.rebound_rate"] = rate
             words.append(f"{name} rebound stiffened to {quantity_text(rate, 'N/m')} to keep travel when empty")
     return Repair(changes, ", ".join(words))
-
-
-def _needed_frequency(tried: Tried, name: str) -> float | None:
-    """Least frequency in hundredths [Hz] with which the spring carries the load range."""
-    targets, stops = tried.layout.targets, tried.car.axle(name).spring.stops
-    ratio = max(tried.corner_force(name, load) for load in targets.loads) / tried.corner_force(name, DESIGN_LOAD)
-    room = stops.compression - max(targets.travel.steps, default=0.0) - targets.travel.reserve
-    if room <= 0:
-        return None
-    least = math.sqrt(GRAVITY * math.log(ratio) / room) / (2 * math.pi)
-    return math.ceil(100 * least) / 100
 
 
 def _more_damping(tried: Tried, missed: Sequence[Finding]) -> Repair:

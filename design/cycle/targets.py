@@ -12,6 +12,7 @@ from pydantic_core import PydanticCustomError
 from evaluation.display import quantity_text
 from evaluation.numbers import NUMBERS
 from susp_mj.description import Description, one_of, validate, wrong
+from susp_mj.elements.dampers import ratio_of
 from susp_mj.errors import InputError, choices
 from susp_mj.files import file_name
 from susp_mj.names import AXLES
@@ -19,9 +20,10 @@ from susp_mj.plugins import load_plugins
 from susp_mj.units import Damping, Length, NaturalFrequency, NonNegativeForce, PositiveLength, Quantity
 from vehicles.mjcf import MODELS
 from vehicles.reading import read_toml
+from vehicles.vehicle import DESIGN_LOAD
 
 from ..case import Band
-from .knobs import KNOBS, REPAIRS, ratio_of, ratio_text
+from .knobs import KNOBS, REPAIRS, ratio_text
 
 FOLDER = Path(__file__).parent.parent / "cycles"
 STEPS = ("characteristics", "load range", "frequencies", "damping", "steps", "bars", "roll")
@@ -125,7 +127,7 @@ class Roll(Description):
     tolerance: PositiveAngle = 0.0044
     bar_share: Limits = Limits(max=0.75)
     transfer_over_weight: Limits | None = None
-    load: str = "ko"
+    load: str = DESIGN_LOAD
 
 
 class Check(Description):
@@ -177,7 +179,7 @@ class Response(Description):
     manoeuvre: dict[str, Any]
     number: Annotated[str, one_of(NUMBERS)]
     model: str = "handling"
-    load: str = "ko"
+    load: str = DESIGN_LOAD
     axles: tuple[Axle, ...] | None = None
 
     @model_validator(mode="after")
@@ -271,7 +273,7 @@ class Targets(Description):
     characteristics: str | None = None
     start: Literal["car", "targets"] = "targets"
     set: dict[str, Any] = Field(default_factory=dict)
-    loads: tuple[str, ...] = Field(default=("ko",), min_length=1)
+    loads: tuple[str, ...] = Field(default=(DESIGN_LOAD,), min_length=1)
     ride: Ride = Ride()
     dampers: Dampers = Dampers()
     travel: Travel = Travel()

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from evaluation.characteristics import Characteristic, characteristic
 from evaluation.display import quantity_text
 from evaluation.story import Attempt, Story
 from susp_mj.elements import GRAVITY
-from susp_mj.errors import InputError
 from susp_mj.names import AXLES
 from susp_mj.recording import versions
 from susp_mj.run import Run
 
+from ..running import Report
 from .candidate import Candidate, Layout
-from .characteristics import Ask, Tried
-from .checks import place_name, places_of, run_of, trade_offs
+from .characteristics import Ask, Tried, place_name
+from .checks import places_of, run_of, trade_offs
 from .components import component_rows
 from .cycling import Outcome, attempt, kept_of, verdict
 from .ledger import Answered, Asked, Ledger
@@ -26,13 +26,12 @@ from .targets import STEPS
 SHOWN = 4
 """So many candidates are shown on the steps, the last ones."""
 
-Progress = Callable[[str, float], None]
 Runs = Mapping[str, Mapping[str, Mapping[str, Run]]]
 Wanted = tuple[tuple[str, str, str], Asked]
 """Check, place and candidate of a run, and the run."""
 
 
-def story(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress: Progress) -> Story:
+def story(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress: Report) -> Story:
     """The whole story, with the knobs that move what was missed, and the runs that figures show."""
     targets = layout.targets
 
@@ -55,8 +54,8 @@ def story(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress:
         f"{layout.file.title}, {layout.file.path.name}",
         attempts,
         verdict(outcomes),
-        trade_offs(_tried(layout, kept, ask), _ratios(layout, kept, ask)) if kept is not None else (),
-        {each.candidate.name: curves(layout, each.candidate) for each in outcomes if _possible(each)},
+        trade_offs(Tried.of(layout, kept, ask), _ratios(layout, kept, ask)) if kept is not None else (),
+        {each.candidate.name: curves(layout, each.candidate) for each in outcomes if each.possible},
         {
             load: {axle: layout.own(targets.characteristics).corner_mass(axle, load) * GRAVITY for axle in AXLES}
             for load in targets.loads
@@ -68,18 +67,10 @@ def story(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress:
     )
 
 
-def _possible(outcome: Outcome) -> bool:
-    return all(each.target != "possible" for each in outcome.findings)
-
-
-def _tried(layout: Layout, candidate: Candidate, ask: Ask) -> Tried:
-    return Tried(layout, candidate, layout.vehicle(candidate), ask)
-
-
 def _ratios(layout: Layout, candidate: Candidate, ask: Ask) -> dict[str, Tried]:
     """The candidate with each compression to rebound ratio of the targets on both axles."""
     return {
-        ratio: _tried(
+        ratio: Tried.of(
             layout,
             replace(candidate, turned={**candidate.turned, **{f"{axle}.ratio": ratio for axle in AXLES}}),
             ask,
@@ -94,7 +85,7 @@ def curves(layout: Layout, candidate: Candidate) -> list[Characteristic]:
     return [characteristic(f"{name} axle", car.axle(name)) for name in AXLES]
 
 
-def _runs(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress: Progress) -> Runs:
+def _runs(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress: Report) -> Runs:
     """Runs of the kept and the last discarded candidate on every check that they reached, and of the last candidates
     on the steps at the lightest and the heaviest load: check -> place -> candidate -> run."""
     wanted = [*_on_steps(layout, outcomes, ledger.ask), *_on_checks(layout, outcomes, ledger.ask)]
@@ -107,21 +98,21 @@ def _runs(layout: Layout, outcomes: Sequence[Outcome], ledger: Ledger, progress:
 
 
 def _on_steps(layout: Layout, outcomes: Sequence[Outcome], ask: Ask) -> Iterator[Wanted]:
-    for outcome in [each for each in outcomes if _possible(each)][-SHOWN:]:
-        tried = _tried(layout, outcome.candidate, ask)
+    for outcome in [each for each in outcomes if each.possible][-SHOWN:]:
+        tried = Tried.of(layout, outcome.candidate, ask)
         for height in layout.targets.travel.steps:
             for axle in AXLES:
                 for load in _extremes(tried, axle):
-                    names = (f"step of {quantity_text(height, 'm')}", f"{axle} axle, {load}", outcome.candidate.name)
+                    names = (f"step of {quantity_text(height, 'm')}", place_name(load, axle), outcome.candidate.name)
                     yield names, tried.step(height, axle, load)
 
 
 def _on_checks(layout: Layout, outcomes: Sequence[Outcome], ask: Ask) -> Iterator[Wanted]:
     for outcome in _compared(outcomes):
-        tried, reached = _tried(layout, outcome.candidate, ask), {each.step for each in outcome.findings}
+        tried, reached = Tried.of(layout, outcome.candidate, ask), {each.step for each in outcome.findings}
         for check in layout.targets.check:
             if check.name in reached:
-                for load, axle in places_of(tried, check):
+                for load, axle in places_of(layout, check):
                     names = (check.name, place_name(load, axle), outcome.candidate.name)
                     yield names, run_of(tried, check, load, axle)
 
@@ -167,9 +158,6 @@ def notes(layout: Layout) -> list[str]:
             (targets.roll, "tolerance", f"the roll angle is met within {quantity_text(targets.roll.tolerance, 'rad')}"),
         ]
     defaults = [f"by default {words}" for part, key, words in told if key not in part.model_fields_set]
-    try:
-        sources = layout.own(targets.characteristics).sources
-    except InputError:
-        return defaults
+    sources = layout.own(targets.characteristics).sources
     estimates = sorted(key for key, text in sources.items() if str(text).startswith("estimated"))
     return [*defaults, *([f"estimated in the vehicle file: {', '.join(estimates)}"] if estimates else [])]

@@ -188,6 +188,24 @@ class HydraulicDamper(Damper):
         return self.model_copy(update={"friction": 0.0})
 
 
+def ratio_of(value: Any) -> tuple[float, float]:
+    """Compression and rebound of a ratio, a text like "1:2" or two numbers.
+
+    Raises:
+        ValueError: anything else, or a part that is not from 0.001 to 1000.
+    """
+    if isinstance(value, str):
+        parts = value.split(":")
+        try:
+            value = (float(parts[0]), float(parts[1])) if len(parts) == 2 else None
+        except ValueError:
+            value = None
+    numbers = isinstance(value, (tuple, list)) and len(value) == 2 and all(type(part) in (int, float) for part in value)
+    if not numbers or not all(1e-3 <= part <= 1e3 for part in value):
+        raise ValueError("write the ratio of compression to rebound as two numbers from 0.001 to 1000, like '1:2'")
+    return value[0], value[1]
+
+
 class ZonedDamper(HydraulicDamper):
     """Average rate per velocity zone and compression:rebound ratio (thesis section 4.4.2).
 
@@ -208,18 +226,10 @@ class ZonedDamper(HydraulicDamper):
     @field_validator("ratio", mode="before")
     @classmethod
     def _read_ratio(cls, value: Any) -> Any:
-        if isinstance(value, str):
-            parts = value.split(":")
-            try:
-                value = (float(parts[0]), float(parts[1])) if len(parts) == 2 else None
-            except ValueError:
-                value = None
-        numbers = (
-            isinstance(value, (tuple, list)) and len(value) == 2 and all(type(part) in (int, float) for part in value)
-        )
-        if not numbers or not all(1e-3 <= part <= 1e3 for part in value):
-            raise wrong("write the ratio of compression to rebound as two numbers from 0.001 to 1000, like '1:2'")
-        return tuple(value)
+        try:
+            return ratio_of(value)
+        except ValueError as error:
+            raise wrong(str(error)) from None
 
     @model_validator(mode="after")
     def _zones(self) -> ZonedDamper:

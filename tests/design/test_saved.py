@@ -24,6 +24,9 @@ from evaluation.saving import load, save
 from susp_mj import InputError, Run
 from vehicles import load_vehicle
 
+from .test_running import LOW
+from .test_running import STEP as TALL
+
 BUMP = """
 title = "a bump"
 model = "quarter_2dof"
@@ -59,29 +62,7 @@ name = "four wheels"
 vehicle = "s_class"
 characteristics = "configuration_4"
 """
-STEP = """
-title = "a tall car beside a low one"
-model = "handling"
-plugins = ["my_number.py"]
-[manoeuvre]
-kind = "step_steer"
-angle = "120 deg"
-speed = "120 km/h"
-duration = "2 s"
-[criteria]
-lateral_acceleration_max = { min = 1.0 }
-[[configuration]]
-name = "tall"
-vehicle = "s_class"
-characteristics = "configuration_4"
-load = "ko"
-set = { "loads.ko.cg" = [-1.5572, 0.0, 1.4] }
-[[configuration]]
-name = "low"
-vehicle = "s_class"
-characteristics = "configuration_4"
-load = "ko"
-"""
+STEP = TALL.replace('numbers = ["lateral_acceleration_max"]', 'plugins = ["my_number.py"]') + LOW
 MY_NUMBER = '''
 from evaluation import numbers
 
